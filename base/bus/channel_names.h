@@ -9,6 +9,7 @@ namespace ols {
 // Each name is completed by a station's name.
 inline constexpr std::string_view kBearingChannel = "OLS_BEARING_";
 inline constexpr std::string_view kSightingChannel = "OLS_SIGHTING_";
+inline constexpr std::string_view kSkylineChannel = "OLS_SKYLINE_";
 inline constexpr std::string_view kStatusChannel = "OLS_STATUS_";
 inline constexpr std::string_view kReplyChannel = "OLS_REPLY_";
 inline constexpr std::string_view kPreviewChannel = "OLS_PREVIEW_";

@@ -39,6 +39,7 @@ constexpr auto numbered(auto rules) {
 constexpr auto kRules = numbered(std::array{
     of_station(kBearingChannel, kTracker_Hz),
     of_station(kSightingChannel, kStatus_Hz),
+    of_station(kSkylineChannel, kStatus_Hz),
     // A station whose clock is wrong must still be seen, and be stopped.
     of_station(kStatusChannel, kStatus_Hz, false),
     of_station(kReplyChannel, kReplies_Hz, false),

@@ -54,6 +54,8 @@ void FusionProcess::subscribe(LcmBus& bus) {
                 [this](const BusMessage& message) { on_bearing(message); });
   bus.subscribe(std::string(kStatusChannel) + ".*",
                 [this](const BusMessage& message) { on_status(message); });
+  bus.subscribe(std::string(kSkylineChannel) + ".*",
+                [this](const BusMessage& message) { on_skyline(message); });
   bus.subscribe(std::string(kCueChannel), [this](const BusMessage& message) { on_cue(message); });
   bus.subscribe(std::string(kCueOrderChannel),
                 [this](const BusMessage& message) { on_cue_order(message); });
@@ -103,6 +105,15 @@ void FusionProcess::on_status(const BusMessage& message) {
   if (!place.no_place) return fusion_.know_station(place.station, place.traits);
   fusion_.allow_slews(place.station, place.traits.commandable);
   refuse(*place.no_place, message.channel);
+}
+
+void FusionProcess::on_skyline(const BusMessage& message) {
+  const auto decoded = skyline_sector_from(message.channel, message.payload.data(),
+                                           static_cast<int>(message.payload.size()));
+  if (const auto* refusal = std::get_if<MessageRefusal>(&decoded)) {
+    return refuse(*refusal, message.channel);
+  }
+  fusion_.know_skyline(std::get<SkylineSector>(decoded));
 }
 
 void FusionProcess::on_fusion_status(const BusMessage& message) {

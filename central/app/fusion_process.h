@@ -37,6 +37,7 @@ class FusionProcess {
   void subscribe(LcmBus& bus);
   void on_bearing(const BusMessage& message);
   void on_status(const BusMessage& message);
+  void on_skyline(const BusMessage& message);
   void on_fusion_status(const BusMessage& message);
   void on_cue(const BusMessage& message);
   void on_cue_order(const BusMessage& message);

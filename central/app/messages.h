@@ -38,6 +38,9 @@ struct StationPlace {
 std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,
                                                               const void* data, int bytes);
 
+std::variant<SkylineSector, MessageRefusal> skyline_sector_from(const std::string& channel,
+                                                                const void* data, int bytes);
+
 // The boot id of the fusion that sent the status.
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
 

@@ -66,6 +66,10 @@ void Fusion::know_station(const std::string& station, const StationTraits& trait
   if (traits.axis) tracks_.know_view(station, *traits.axis, traits.field_of_view_rad, now_us());
 }
 
+void Fusion::know_skyline(const SkylineSector& sector) {
+  if (admission_.stations().all().contains(sector.station)) tracks_.know_skyline(sector);
+}
+
 void Fusion::allow_slews(const std::string& station, bool allowed) {
   admission_.allow_slews(station, allowed);
 }
@@ -86,7 +90,8 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
   for (const ImageBearings& image : used) targets_.hear(image.front(), now);
   targets_.tell(now, tracks_, admission_.clocks(), pointing_, output, log_);
   output.slews = slews_at(now);
-  output.occlusions = occlusions_.plan(now, output.slews, admission_.stations(), tracks_.tracks());
+  output.occlusions = occlusions_.plan(now, output.slews, admission_.stations(), tracks_.tracks(),
+                                       tracks_.skylines());
   return output;
 }
 
@@ -190,6 +195,7 @@ void Fusion::forget(const std::string& station) {
   tracks_.forget_station(station);
   targets_.forget(station);
   slews_.forget(station);
+  tracks_.forget_skyline(station);
   occlusions_.forget(station);
 }
 

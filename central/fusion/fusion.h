@@ -50,6 +50,9 @@ class Fusion {
 
   // Takes a station's status, so that the station can be slewed before its first bearing.
   void know_station(const std::string& station, const StationTraits& traits);
+  // Takes a part of the skyline that a station has seen. Stations that are not known yet are
+  // ignored: they repeat it.
+  void know_skyline(const SkylineSector& sector);
   // Notes only whether a station may be slewed; for stations without a position.
   void allow_slews(const std::string& station, bool allowed);
   // Processes one bearing. Call it in order of arrival.

@@ -44,7 +44,8 @@ LandHorizon& OcclusionSchedule::horizon_of(Told& told, const Eigen::Vector3d& ca
 std::vector<OcclusionNotice> OcclusionSchedule::plan(std::int64_t now_us,
                                                      const std::vector<Slew>& slews,
                                                      const StationRegistry& stations,
-                                                     const std::vector<Track>& tracks) {
+                                                     const std::vector<Track>& tracks,
+                                                     const SeenSkylines& skylines) {
   std::vector<OcclusionNotice> notices;
   if (!surface_) return notices;
   std::map<std::int64_t, std::vector<Position>> paths;
@@ -55,8 +56,9 @@ std::vector<OcclusionNotice> OcclusionSchedule::plan(std::int64_t now_us,
     auto& path = paths[slew.target_id];
     if (path.empty()) path = path_of(*track, now_us);
     Told& told = told_[slew.station];
-    const auto occlusion = occlusion_ahead(horizon_of(told, station->second.traits.camera_ecef),
-                                           path, kStep_s, kLead_s);
+    const Eigen::Vector3d& camera_ecef = station->second.traits.camera_ecef;
+    const auto occlusion = occlusion_ahead(horizon_of(told, camera_ecef), path, kStep_s, kLead_s,
+                                           skylines.of(slew.station, camera_ecef));
     if (!occlusion && now_us >= told.exit_us) continue;
     OcclusionNotice notice{slew.station, now_us, slew.target_id};
     if (occlusion) {

@@ -12,6 +12,7 @@
 #include "central/fusion/slew_planner.h"
 #include "central/ground/land_horizon.h"
 #include "central/ground/occlusion.h"
+#include "central/ground/seen_skylines.h"
 #include "central/tracking/track.h"
 
 namespace ols::fusion {
@@ -36,7 +37,7 @@ class OcclusionSchedule {
   // Plans notices for the stations that get these slews.
   std::vector<OcclusionNotice> plan(std::int64_t now_us, const std::vector<Slew>& slews,
                                     const StationRegistry& stations,
-                                    const std::vector<Track>& tracks);
+                                    const std::vector<Track>& tracks, const SeenSkylines& skylines);
   void forget(const std::string& station) { told_.erase(station); }
   void clear() { told_.clear(); }
 

@@ -38,8 +38,12 @@ struct Look {  // of one sample at one instant
 // The path as seen from one camera: a row for each instant, a column for each sample.
 class Looks {
  public:
-  Looks(LandHorizon& horizon, std::span<const Position> path)
-      : horizon_(horizon), path_(path), looks_(path.size() * kSamples), roots_(path.size()) {
+  Looks(LandHorizon& horizon, const land::SeenSkyline* seen, std::span<const Position> path)
+      : horizon_(horizon),
+        seen_(seen),
+        path_(path),
+        looks_(path.size() * kSamples),
+        roots_(path.size()) {
     const Eigen::Matrix3d R_enu_ecef = horizon.frame().R_ecef_enu().transpose();
     for (std::size_t i = 0; i < path.size(); ++i) {
       const Eigen::Matrix3d P = R_enu_ecef * path[i].covariance_ecef * R_enu_ecef.transpose();
@@ -79,10 +83,16 @@ class Looks {
   };
   static std::size_t index(int sample) { return static_cast<std::size_t>(sample); }
 
+  std::optional<land::Skyline> highest_before(double azimuth_rad, double distance_m) const {
+    const auto land = horizon_.highest_before(azimuth_rad, distance_m);
+    const auto seen = land && seen_ != nullptr ? seen_->at(azimuth_rad) : std::nullopt;
+    return seen ? land::hiding(*land, *seen, distance_m) : land;
+  }
+
   double crest_at(std::size_t instant) const {
     constexpr double kNearest_m = 20.0;
     const Eigen::Vector3d& enu = roots_[instant].mean_enu;
-    const auto crest = horizon_.highest_before(std::atan2(enu.x(), enu.y()), enu.head<2>().norm());
+    const auto crest = highest_before(std::atan2(enu.x(), enu.y()), enu.head<2>().norm());
     return std::max(kNearest_m, crest ? crest->distance_m : kNearest_m);
   }
 
@@ -95,8 +105,8 @@ class Looks {
     const Eigen::Vector3d enu = root.mean_enu + root.root * z.head<3>();
     const double distance_m = enu.head<2>().norm();
     Look look{azimuth_elevation_from_enu(enu), 1.0};
-    const auto land = horizon_.highest_before(
-        look.direction.azimuth_rad + kOutlineSd_m * z(4) / crest_m, distance_m);
+    const auto land =
+        highest_before(look.direction.azimuth_rad + kOutlineSd_m * z(4) / crest_m, distance_m);
     if (!land) return look;  // land that is not known hides nothing
     const double lift = land::refraction_slope(land::kRefraction, distance_m);
     look.above_rad = std::atan(enu.z() / std::max(1.0, distance_m) + lift) - land->elevation_rad -
@@ -105,6 +115,7 @@ class Looks {
   }
 
   LandHorizon& horizon_;
+  const land::SeenSkyline* seen_;
   std::span<const Position> path_;
   std::vector<Look> looks_;
   std::vector<Root> roots_;
@@ -180,9 +191,10 @@ std::optional<Emergence> emergence(const Looks& looks, std::size_t midst, double
 }  // namespace
 
 std::optional<Occlusion> occlusion_ahead(LandHorizon& horizon, std::span<const Position> path,
-                                         double step_s, double lead_s) {
+                                         double step_s, double lead_s,
+                                         const land::SeenSkyline* seen) {
   if (path.empty()) return std::nullopt;
-  Looks looks(horizon, path);
+  Looks looks(horizon, seen, path);
   const auto lead = static_cast<std::size_t>(lead_s / step_s) + 1;
   // A few samples show whether a target is anywhere near the horizon.
   looks.look(0, kFirstLook);

@@ -13,6 +13,7 @@
 #include "central/ground/above_ground.h"
 #include "central/ground/land_horizon.h"
 #include "geometry/direction.h"
+#include "land/seen_skyline.h"
 
 namespace ols::fusion {
 
@@ -29,8 +30,9 @@ struct Occlusion {
 };
 
 // `path`: the target's positions, one for each step_s. nullopt if the target cannot be hidden
-// within lead_s.
+// within lead_s. `seen`: the skyline that the station has seen; null if none is known.
 std::optional<Occlusion> occlusion_ahead(LandHorizon& horizon, std::span<const Position> path,
-                                         double step_s, double lead_s);
+                                         double step_s, double lead_s,
+                                         const land::SeenSkyline* seen = nullptr);
 
 }  // namespace ols::fusion

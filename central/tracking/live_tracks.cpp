@@ -197,8 +197,11 @@ void LiveTracks::judge_existence(std::span<const BearingMeasurement> image) {
 double LiveTracks::visible(const BearingMeasurement& in_image, const Track& track) const {
   if (!config_.initiation.land) return 1.0;
   const KinematicState there = track.filter.at(in_image.utime_us);
-  return visibility(*config_.initiation.land, in_image.sight.origin_ecef, there.mean.head<3>(),
-                    there.covariance.topLeftCorner<3, 3>());
+  const Eigen::Vector3d& camera_ecef = in_image.sight.origin_ecef;
+  const Eigen::Vector3d p_ecef = there.mean.head<3>();
+  const Eigen::Matrix3d P = there.covariance.topLeftCorner<3, 3>();
+  return std::min(visibility(*config_.initiation.land, camera_ecef, p_ecef, P),
+                  skylines_.visibility(in_image.station, camera_ecef, p_ecef, P));
 }
 
 // Two other stations see it, it is in the field of view, and at its brightness the detector would
@@ -326,6 +329,7 @@ void LiveTracks::clear() {
   duplicates_ = DuplicateTracks(config_.duplicates);
   clutter_ = {};
   merged_.clear();
+  skylines_.clear();
 }
 
 }  // namespace ols::fusion

@@ -31,6 +31,7 @@
 #include <utility>
 #include <vector>
 
+#include "central/ground/seen_skylines.h"
 #include "central/tracking/clutter.h"
 #include "central/tracking/duplicate_tracks.h"
 #include "central/tracking/track_manager.h"
@@ -51,6 +52,10 @@ class LiveTracks : public TrackManager {
                  std::int64_t utime_us) {
     views_.know(station, axis, view_rad, utime_us);
   }
+  // What hides targets from a station beside what the land's model hides.
+  void know_skyline(const SkylineSector& sector) { skylines_.take(sector); }
+  void forget_skyline(const std::string& station) { skylines_.forget(station); }
+  const SeenSkylines& skylines() const { return skylines_; }
   bool is_ambiguous() const override;
   // The expected number of ghosts per day from two stations alone, with the present clutter.
   double predicted_ghosts_a_day() const {
@@ -96,6 +101,7 @@ class LiveTracks : public TrackManager {
 
   DuplicateTracks duplicates_;
   StationViews views_;
+  SeenSkylines skylines_;
   Clutter clutter_;
   Merged merged_;
 };

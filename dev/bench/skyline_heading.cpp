@@ -5,13 +5,16 @@
 //
 // At each site: a round with the heading wrong by --wrong, whether that is noticed, and how well
 // the heading is found; then --days with the right heading, each under another sky, with --rounds
-// of 36 pictures.
+// of 36 pictures. Then the skyline that it has seen is compared with the true one, with --obstacles
+// (masts, houses, trees) that the folder does not have.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <random>
+#include <vector>
 
 #include "dev/bench/drawn_skyline.h"
 #include "dev/bench/program.h"
@@ -70,10 +73,15 @@ CameraIntrinsics camera_of() {
 
 struct Options {
   std::string folder;
-  int sites = 20, days = 0, rounds = 4;
+  int sites = 20, days = 0, rounds = 4, obstacles = 0;
   double wrong_deg = 0.1, heading_sd_deg = 0.01, position_sd_m = 0.5;
   double length_m = land::kLowered_m;
   unsigned seed = 1;
+};
+
+struct Obstacle {
+  double azimuth_rad = 0.0, width_rad = 0.0;
+  double high_rad = 0.0;  // above the skyline
 };
 
 struct Site {
@@ -81,7 +89,23 @@ struct Site {
   Geodetic stated;  // the camera's position, with its error
   std::unique_ptr<land::HorizonMap> known, truth;
   std::vector<double> trees_rad;  // around the horizon
+  std::vector<Obstacle> obstacles;
   std::mt19937_64 generator;
+
+  double obstacle_rad(double azimuth_rad) const {
+    double high_rad = 0.0;
+    for (const Obstacle& one : obstacles) {
+      const bool is_there = std::abs(wrap_pi(azimuth_rad - one.azimuth_rad)) < 0.5 * one.width_rad;
+      if (is_there) high_rad = std::max(high_rad, one.high_rad);
+    }
+    return high_rad;
+  }
+  std::optional<double> skyline_rad(double azimuth_rad) const {
+    const auto skyline = truth->skyline(azimuth_rad);
+    if (!skyline) return std::nullopt;
+    const auto tree = static_cast<std::size_t>(wrap_two_pi(azimuth_rad) / (2.0 * kPi) * kTrees);
+    return skyline->elevation_rad + std::max(trees_rad[tree % kTrees], obstacle_rad(azimuth_rad));
+  }
 };
 
 // A station stands where it sees far: on the highest of some places.
@@ -122,6 +146,13 @@ Site make_site(const land::TerrainFolder& folder, const Options& options, unsign
     const bool wooded = skyline && skyline->distance_m > 1000.0 && skyline->distance_m < 15'000.0;
     site.trees_rad.push_back(wooded ? tree_m(site.generator) / skyline->distance_m : 0.0);
   }
+  std::mt19937_64 generator(seed);  // its own: the rest stays as it is without obstacles
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int i = 0; i < options.obstacles; ++i) {
+    site.obstacles.push_back({2.0 * kPi * (i + 0.8 * uniform(generator)) / options.obstacles,
+                              radians(0.15 + 2.0 * std::pow(uniform(generator), 2)),
+                              radians(0.3 + 1.2 * uniform(generator))});
+  }
   return site;
 }
 
@@ -136,11 +167,8 @@ std::unique_ptr<sim::Panorama> panorama_of(Site& site, unsigned seed) {
   landscape.seed = static_cast<int>(seed);
   auto panorama = std::make_unique<sim::Panorama>(
       landscape, site.camera, sim::slopes_texture(landscape, site.camera), seed);
-  panorama->raise([&site](double azimuth_rad) {
-    const auto skyline = site.truth->skyline(azimuth_rad);
-    const auto tree = static_cast<std::size_t>(wrap_two_pi(azimuth_rad) / (2.0 * kPi) * kTrees);
-    return (skyline ? skyline->elevation_rad : -0.5) + site.trees_rad[tree % kTrees];
-  });
+  panorama->raise(
+      [&site](double azimuth_rad) { return site.skyline_rad(azimuth_rad).value_or(-0.5); });
   return panorama;
 }
 
@@ -238,7 +266,71 @@ class Watcher {
   double worst_ = 0.0;
 };
 
+// What is seen of the skyline, beside the true one.
+struct SeenTally {
+  int known = 0, seen = 0, raised = 0, wrongly_raised = 0;  // columns
+  int obstacles = 0, found = 0;
+  // Of the columns that agree with the map: errors, and what is told of them.
+  std::vector<double> errors_rad, sds_rad;
+
+  void add(const SeenTally& other) {
+    known += other.known;
+    seen += other.seen;
+    raised += other.raised;
+    wrongly_raised += other.wrongly_raised;
+    obstacles += other.obstacles;
+    found += other.found;
+    errors_rad.insert(errors_rad.end(), other.errors_rad.begin(), other.errors_rad.end());
+    sds_rad.insert(sds_rad.end(), other.sds_rad.begin(), other.sds_rad.end());
+  }
+  void print() const {
+    std::printf(
+        "seen %.3f of the columns; raised %d, wrongly by more than 0.1 deg %d; error of the others "
+        "(median) %.4f deg, 1-sigma told %.4f; obstacles found %d of %d\n",
+        static_cast<double>(seen) / known, raised, wrongly_raised, degrees(median(errors_rad)),
+        degrees(median(sds_rad)), found, obstacles);
+  }
+  static double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+  }
+};
+
+SeenTally tally_of(const Site& site, const land::SeenSkyline& skyline) {
+  constexpr double kFar_rad = radians(0.1);
+  SeenTally tally;
+  for (int column = 0; column < land::SeenSkyline::kColumns; ++column) {
+    const double azimuth_rad = land::SeenSkyline::azimuth_rad(column);
+    const auto truth_rad = site.skyline_rad(azimuth_rad);
+    if (!truth_rad) continue;
+    ++tally.known;
+    const auto crest = skyline.at(azimuth_rad);
+    if (!crest) continue;
+    ++tally.seen;
+    const double off_rad = crest->elevation_rad - *truth_rad;
+    if (crest->disagrees && crest->hides_from_m > 0.0) {
+      ++tally.raised;
+      tally.wrongly_raised += off_rad > kFar_rad ? 1 : 0;
+    } else if (!crest->disagrees) {
+      tally.errors_rad.push_back(std::abs(off_rad));
+      tally.sds_rad.push_back(crest->sd_rad);
+    }
+  }
+  for (const Obstacle& one : site.obstacles) {
+    const auto truth_rad = site.skyline_rad(one.azimuth_rad);
+    const auto crest = skyline.at(one.azimuth_rad);
+    ++tally.obstacles;
+    const bool is_found = truth_rad && crest && crest->hides_from_m > 0.0 &&
+                          std::abs(crest->elevation_rad - *truth_rad) < kFar_rad;
+    tally.found += is_found ? 1 : 0;
+  }
+  return tally;
+}
+
 struct Sum {
+  SeenTally seen;
   int sites = 0, noticed = 0, unfounded = 0;
   double nees = 0.0;
 };
@@ -272,11 +364,15 @@ void run_site(const land::TerrainFolder& folder, const Options& options, unsigne
     }
   }
   sum.unfounded += right.alarms();
+  const SeenTally seen = tally_of(site, right.watch().hiding().crests);
+  sum.seen.add(seen);
   const Tally& tally = right.tally();
   std::printf("; alarms %d, worst %.1f sigmas (%.3f found, %.4f of them far off, %.2f px)\n",
               right.alarms(), right.worst(), static_cast<double>(tally.found) / tally.strips,
               static_cast<double>(tally.far) / tally.found,
               std::sqrt(tally.off2_px2 / tally.found));
+  std::printf("    ");
+  seen.print();
 }
 
 void run(const Options& options) {
@@ -290,6 +386,7 @@ void run(const Options& options) {
   }
   std::printf("noticed %d of %d; alarms with the right heading: %d in %d days each; NEES %.2f\n",
               sum.noticed, sum.sites, sum.unfounded, options.days, sum.nees / sum.sites);
+  sum.seen.print();
 }
 
 }  // namespace
@@ -305,6 +402,7 @@ int main(int argc, char** argv) {
   app.add_option("--length", options.length_m, "Over which the land's errors are alike [m]");
   app.add_option("--days", options.days, "With the right heading, at each site");
   app.add_option("--rounds", options.rounds, "Of 36 pictures, a day");
+  app.add_option("--obstacles", options.obstacles, "That the folder does not have, at each site");
   app.add_option("--seed", options.seed);
   return bench::run_program(app, argc, argv, [&] { run(options); });
 }

@@ -198,6 +198,25 @@ ols_msg::sighting_t to_message(const Sighting& sighting, const Sender& sender,
   return message;
 }
 
+ols_msg::skyline_t to_message(const skyline::SkylinePart& part, const Sender& sender, double now_s,
+                              std::int64_t sequence) {
+  ols_msg::skyline_t message{};
+  stamp(message, sender, sender.utime_us(now_s), sequence);
+  message.begun_utime = part.begun_us;
+  for (int i = 0; i < 3; ++i) message.camera_ecef_m[i] = part.camera_ecef(i);
+  message.heading_disagrees = part.heading_disagrees ? 1 : 0;
+  message.sector = static_cast<std::int16_t>(part.sector);
+  message.columns = static_cast<std::int16_t>(part.columns.size());
+  for (const auto& [column, crest] : part.columns) {
+    message.column.push_back(static_cast<std::int16_t>(column));
+    message.elevation_rad.push_back(static_cast<float>(crest.elevation_rad));
+    message.sd_rad.push_back(static_cast<float>(crest.sd_rad));
+    message.hides_from_m.push_back(static_cast<float>(crest.hides_from_m));
+    message.disagrees.push_back(crest.disagrees ? 1 : 0);
+  }
+  return message;
+}
+
 ols_msg::station_status_t to_message(const StationReport& report, const Sender& sender,
                                      const StationSettings& settings, double now_s,
                                      std::int64_t sequence) {

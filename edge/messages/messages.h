@@ -9,6 +9,7 @@
 #include "edge/command/command_turn.h"
 #include "edge/config/config.h"
 #include "edge/frames/frame_desk.h"
+#include "edge/skyline/skyline_part.h"
 #include "edge/station/station.h"
 #include "edge/station/station_report.h"
 #include "edge/video/preview_picture.h"
@@ -22,6 +23,7 @@
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
 #include "ols_msg/sighting_t.hpp"
+#include "ols_msg/skyline_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 
@@ -43,6 +45,9 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
 
 ols_msg::sighting_t to_message(const Sighting& sighting, const Sender& sender,
                                std::int64_t sequence);
+
+ols_msg::skyline_t to_message(const skyline::SkylinePart& part, const Sender& sender, double now_s,
+                              std::int64_t sequence);
 
 ols_msg::station_status_t to_message(const StationReport& report, const Sender& sender,
                                      const StationSettings& settings, double now_s,

@@ -310,6 +310,11 @@ void StationBus::send(const Sighting& sighting) {
           to_message(sighting, sender_, ++sequences_["sighting"]));
 }
 
+void StationBus::send(const skyline::SkylinePart& part) {
+  publish(station_channel(kSkylineChannel, settings_.id),
+          to_message(part, sender_, now_s_, ++sequences_["skyline"]));
+}
+
 void StationBus::send(StationReport report) {
   report.counters.merge(counters());
   publish(station_channel(kStatusChannel, settings_.id),

@@ -70,6 +70,7 @@ class StationBus {
 
   void send(const Bearing& bearing);
   void send(const Sighting& sighting);
+  void send(const skyline::SkylinePart& part);
   void send(StationReport report);
   void send(const FramePart& part);
   void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);

@@ -10,8 +10,12 @@
 
 namespace ols::station {
 
-SkylineThread::SkylineThread(const std::string& folder)
-    : thread_([this, folder](const std::stop_token& stop) { work(stop, folder); }) {}
+SkylineThread::SkylineThread(const std::string& folder, const std::string& file,
+                             const skyline::SkylineOwner& owner)
+    : store_(file),
+      owner_(owner),
+      store_alarm_(store_.trouble()),
+      thread_([this, folder](const std::stop_token& stop) { work(stop, folder); }) {}
 
 bool SkylineThread::wants(double now_s) const {
   const std::lock_guard lock(mutex_);
@@ -27,18 +31,32 @@ void SkylineThread::give(skyline::StatedPicture picture) {
   arrived_.notify_one();
 }
 
-void SkylineThread::follow(int setup) {
+void SkylineThread::follow(int setup, std::int64_t calibration_id) {
   const std::lock_guard lock(mutex_);
+  owner_.calibration_id = calibration_id;
   if (std::exchange(setup_, setup) == setup || !has_land_) return;
   if (std::exchange(picture_, std::nullopt)) works_ = false;
   forgets_ = true;
   alarm_ = {};
+  seen_.reset();
 }
 
-Alarm SkylineThread::alarm() const {
+std::vector<Alarm> SkylineThread::alarms() const {
   std::unique_lock lock(mutex_);
   done_.wait_for(lock, time_source().for_work(), [this] { return !works_; });
-  return alarm_;
+  std::vector<Alarm> alarms;
+  for (const Alarm& alarm : {alarm_, store_alarm_}) {
+    if (!alarm.empty()) alarms.push_back(alarm);
+  }
+  return alarms;
+}
+
+std::optional<skyline::SkylinePart> SkylineThread::next_part(double now_s) {
+  constexpr double kInterval_s = 1.0;
+  const std::lock_guard lock(mutex_);
+  if (!has_land_ || now_s < part_due_s_) return std::nullopt;
+  part_due_s_ = now_s + kInterval_s;
+  return parts_.next(seen_ ? *seen_ : skyline::HidingSkyline(), disagrees_);
 }
 
 bool SkylineThread::read_land(const std::stop_token& stop, const std::string& folder) {
@@ -56,18 +74,33 @@ bool SkylineThread::read_land(const std::stop_token& stop, const std::string& fo
   return has_land_;
 }
 
-void SkylineThread::compare(const skyline::StatedPicture& picture) {
+void SkylineThread::look(const skyline::StatedPicture& picture,
+                         const skyline::SkylineOwner& owner) {
   Alarm alarm;
   try {
+    if (auto found = store_.take_found(owner)) watch_->resume(*std::move(found));
     watch_->look(picture);
     alarm = watch_->alarm();
   } catch (const std::exception& wrong) {
     alarm = alarm::skyline_not_compared(wrong.what());
   }
+  auto seen = std::make_shared<const skyline::HidingSkyline>(watch_->hiding());
+  store_.keep({owner, *seen}, picture.mid_exposure_s);
   const std::lock_guard lock(mutex_);
-  if (!forgets_) alarm_ = std::move(alarm);
+  store_alarm_ = store_.trouble();
+  if (!forgets_) {
+    alarm_ = std::move(alarm);
+    seen_ = std::move(seen);
+    disagrees_ = watch_->disagrees();
+  }
   works_ = false;
   done_.notify_all();
+}
+
+// At a start, the mount's reference is not known yet: that says nothing of what was saved.
+void SkylineThread::forget(const skyline::SkylineOwner& owner) {
+  if (!watch_->hiding().crests.empty()) store_.drop(owner);
+  watch_->forget();
 }
 
 void SkylineThread::work(const std::stop_token& stop, const std::string& folder) {
@@ -77,9 +110,11 @@ void SkylineThread::work(const std::stop_token& stop, const std::string& folder)
   while (arrived_.wait(lock, stop, [this] { return picture_.has_value(); }) &&
          !stop.stop_requested()) {
     const skyline::StatedPicture picture = *std::exchange(picture_, std::nullopt);
-    if (std::exchange(forgets_, false)) watch_->forget();
+    const skyline::SkylineOwner owner = owner_;
+    const bool forgets = std::exchange(forgets_, false);
     lock.unlock();
-    compare(picture);
+    if (forgets) forget(owner);
+    look(picture, owner);
     lock.lock();
   }
 }

@@ -1,6 +1,7 @@
 #include "edge/process/station_process.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -15,6 +16,11 @@ namespace ols::station {
 namespace {
 
 constexpr double kFrameWait_s = 0.004;
+
+std::string skyline_file(const StationSettings& settings) {
+  if (settings.state_folder.empty()) return {};
+  return settings.state_folder + "/" + settings.id + ".skyline";
+}
 
 // A receiver without a first fix stays in the state "starting"; the station needs only camera and
 // PTU.
@@ -59,7 +65,10 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
       frames_(settings().station.angles) {
   const DetectionConfig& detection = settings().station.detection;
   if (detection.enabled) detector_.emplace(detection.detector);
-  if (!settings().land_folder.empty()) skyline_.emplace(settings().land_folder);
+  if (!settings().land_folder.empty()) {
+    skyline_.emplace(settings().land_folder, skyline_file(settings()),
+                     skyline::SkylineOwner{settings().id, settings().calibration_id});
+  }
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_->pose(now_s));
   resume_hold(now_s);
@@ -206,9 +215,13 @@ void StationProcess::detect(double now_s) {
 
 void StationProcess::compare_skyline(double now_s) {
   if (!skyline_) return;
-  skyline_->follow(station_.setup_revision());
+  skyline_->follow(station_.setup_revision(), settings().calibration_id);
+  if (const auto part = skyline_->next_part(now_s)) bus_.send(*part);
   if (!skyline_->wants(now_s)) return;
-  if (auto picture = station_.skyline_picture()) skyline_->give(*std::move(picture));
+  auto picture = station_.skyline_picture();
+  if (!picture) return;
+  picture->utime_us = clock_.utime_us(picture->mid_exposure_s);
+  skyline_->give(*std::move(picture));
 }
 
 void StationProcess::take_zoom() {
@@ -309,9 +322,7 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   for (const Alarm& alarm : ActiveCalibration::other_devices(settings().serials, report.devices)) {
     report.alarms.push_back(alarm);
   }
-  if (Alarm alarm = skyline_ ? skyline_->alarm() : Alarm(); !alarm.empty()) {
-    report.alarms.push_back(std::move(alarm));
-  }
+  if (skyline_) std::ranges::move(skyline_->alarms(), std::back_inserter(report.alarms));
   for (const Alarm& alarm : persisted_.alarms()) report.alarms.push_back(alarm);
   for (const Alarm& alarm : bus_.alarms()) report.alarms.push_back(alarm);
   add_pose_and_clock(now.monotonic_s, report);

@@ -69,6 +69,14 @@ Rows expected_rows(const land::HorizonMap& map, const PictureView& view) {
   return rows;
 }
 
+Rows widely_expected(Rows rows, const PictureView& view) {
+  constexpr double kSigmas = 3.0;  // that find_skyline() searches
+  for (auto& row : rows) {
+    if (row) row->sd_px = std::max(row->sd_px, kHighest_rad / kSigmas * view.camera.fy_px);
+  }
+  return rows;
+}
+
 std::vector<SkylinePoint> directions(const Rows& found, const PictureView& view) {
   std::vector<SkylinePoint> points;
   for (std::size_t strip = 0; strip < found.size(); ++strip) {

@@ -34,6 +34,10 @@ std::optional<land::Skyline> uncertain_skyline(const land::HorizonMap& map, doub
 // unknown and where the skyline is far outside the picture.
 Rows expected_rows(const land::HorizonMap& map, const PictureView& view);
 
+// The same rows, with sigmas wide enough for obstacles that stand kHighest_rad above the skyline.
+Rows widely_expected(Rows rows, const PictureView& view);
+inline constexpr double kHighest_rad = radians(2.0);
+
 // The direction of a found row.
 struct SkylinePoint {
   AzimuthElevation direction;

@@ -59,7 +59,8 @@ std::vector<SeenPlace> SeenHorizon::places() const {
     if (mean.pictures == 0 || is_old(mean)) continue;
     places.push_back({{mean.azimuth_rad, mean.elevation_rad},
                       std::max(mean.picture_variance_rad2, mean.scatter_rad2) / mean.pictures,
-                      mean.azimuth_variance_rad2});
+                      mean.azimuth_variance_rad2,
+                      mean.newest_s});
   }
   return places;
 }

@@ -13,6 +13,7 @@ struct SeenPlace {
   double variance_rad2 = 0.0;  // of the elevation, from the pictures alone
   // Of the azimuth, as the station states it. Its error may be the same at all places.
   double azimuth_variance_rad2 = 0.0;
+  double newest_s = 0.0;  // time of the newest of its pictures
 };
 
 // Several pictures of the same place are averaged: the noise of pictures becomes smaller, the error

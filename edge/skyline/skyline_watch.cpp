@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "conditions/alarms.h"
+#include "edge/skyline/seen_crest.h"
 #include "geometry/angles.h"
 
 namespace ols::skyline {
@@ -23,6 +25,8 @@ double mean_azimuth_sd_rad(const std::vector<SeenPlace>& places) {
 
 void SkylineWatch::forget() {
   seen_.clear();
+  obstacles_.clear();
+  hiding_ = {};
   heading_.reset();
   disagrees_ = false;
 }
@@ -46,6 +50,10 @@ bool SkylineWatch::has_map(const StatedPicture& picture) {
   const double same_m = map_ ? kMoved_m : kAgain_m;
   if (place_ecef_ && (*place_ecef_ - centre_ecef).norm() <= same_m) return map_.has_value();
   forget();
+  if (const auto earlier = std::exchange(earlier_, std::nullopt);
+      earlier && (earlier->camera_ecef - centre_ecef).norm() <= kMoved_m) {
+    hiding_ = *earlier;
+  }
   place_ecef_ = centre_ecef;
   map_.reset();
   why_none_.clear();
@@ -75,9 +83,28 @@ void SkylineWatch::look(const StatedPicture& picture) {
   const PictureView view{(picture.camera.R_camera_ecef * frame.R_ecef_enu()).transpose(),
                          picture.camera.intrinsics, picture.azimuth_sd_rad,
                          picture.elevation_sd_rad};
-  const Rows found = find_skyline(picture.gray, expected_rows(*map_, view));
+  const Rows expected = expected_rows(*map_, view);
+  const Rows found = find_skyline(picture.gray, expected);
   seen_.add(directions(found, view), picture.mid_exposure_s, picture.azimuth_sd_rad);
   compare(picture);
+  note_obstacles(picture, view, expected);
+}
+
+// An edge of a cloud that is taken for an obstacle is not the same in the next pictures.
+void SkylineWatch::note_obstacles(const StatedPicture& picture, const PictureView& view,
+                                  const Rows& expected) {
+  const Rows found = find_skyline(picture.gray, widely_expected(expected, view));
+  obstacles_.add(directions(found, view), picture.mid_exposure_s, picture.azimuth_sd_rad);
+  for (const SeenPlace& place : obstacles_.places()) {
+    if (place.newest_s < picture.mid_exposure_s) continue;
+    const auto crest = seen_crest(place, picture.elevation_sd_rad, *map_);
+    if (!crest) continue;
+    if (hiding_.crests.empty()) {
+      hiding_.begun_us = picture.utime_us;
+      hiding_.camera_ecef = picture.camera.centre_ecef;
+    }
+    hiding_.crests.set(land::SeenSkyline::column_of(place.direction.azimuth_rad), *crest);
+  }
 }
 
 void SkylineWatch::compare(const StatedPicture& newest) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "edge/skyline/skyline_heading.h"
 #include "edge/video/video_frame.h"
 #include "land/horizon_map.h"
+#include "land/seen_skyline.h"
 #include "land/surface.h"
 
 namespace ols::skyline {
@@ -26,6 +28,15 @@ struct StatedPicture {
   // err alike in all pictures.
   double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
   Eigen::Vector3d position_sd_enu_m = Eigen::Vector3d::Zero();
+  std::int64_t utime_us = 0;  // of the exposure, UTC
+};
+
+// What hides targets from a station: the skyline that it has seen, from one place and with one
+// setup.
+struct HidingSkyline {
+  std::int64_t begun_us = 0;  // UTC of the first picture: tells one skyline from the next
+  Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
+  land::SeenSkyline crests;
 };
 
 class SkylineWatch {
@@ -46,6 +57,11 @@ class SkylineWatch {
   // stated.
   double difference_sd_rad() const;
   bool disagrees() const { return disagrees_; }
+  // Each column as it was seen last, however long ago. Nothing has been seen while it is empty.
+  const HidingSkyline& hiding() const { return hiding_; }
+  // Goes on with an earlier one, if the next picture is taken at its place.
+  void resume(HidingSkyline earlier) { earlier_ = std::move(earlier); }
+
   // The heading is wrong, or the land does not fit the station; empty if neither.
   Alarm alarm() const;
 
@@ -58,6 +74,7 @@ class SkylineWatch {
   Geodetic camera_of_map(const Geodetic& stated, double height_sd_m) const;
   Eigen::Vector3d place_sd_enu_m(const StatedPicture& picture) const;
   void compare(const StatedPicture& newest);
+  void note_obstacles(const StatedPicture& picture, const PictureView& view, const Rows& expected);
 
   std::shared_ptr<const land::Surface> surface_;
   land::HorizonMapConfig config_;
@@ -67,6 +84,9 @@ class SkylineWatch {
   std::string why_none_;
   double model_sd_m_ = 0.0;  // of the model as a whole
   SeenHorizon seen_;
+  SeenHorizon obstacles_;  // as above, but searched farther from the map's skyline
+  HidingSkyline hiding_;
+  std::optional<HidingSkyline> earlier_;
   std::optional<SkylineHeading> heading_;
   double stated_sd_rad_ = 0.0;  // of the azimuths that `heading_` is from
   bool disagrees_ = false;

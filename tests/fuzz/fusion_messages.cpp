@@ -73,6 +73,15 @@ void receive_cue(ols::fusion::Fusion& fusion, bool is_order, std::string_view by
   }
 }
 
+void receive_skyline(ols::fusion::Fusion& fusion, const std::string& station,
+                     std::string_view bytes) {
+  const auto decoded = ols::fusion::skyline_sector_from("OLS_SKYLINE_" + station, bytes.data(),
+                                                        static_cast<int>(bytes.size()));
+  if (const auto* sector = std::get_if<ols::fusion::SkylineSector>(&decoded)) {
+    fusion.know_skyline(*sector);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -85,7 +94,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint8_t kind = input.byte();
     const std::size_t length = input.byte();
     const char station[] = {"abcdefgh"[(kind >> 1) & 7], '\0'};
-    if ((kind & 0x30) != 0) {
+    if ((kind & 0x40) != 0) {
+      receive_skyline(fusion, station, input.take(length));
+    } else if ((kind & 0x30) != 0) {
       receive_cue(fusion, (kind & 0x20) != 0, input.take(length));
     } else {
       receive(fusion, (kind & 1) != 0, station, input.take(length));

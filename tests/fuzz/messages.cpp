@@ -17,6 +17,7 @@
 #include "ols_msg/record_t.hpp"
 #include "ols_msg/sighting_t.hpp"
 #include "ols_msg/sim_fault_t.hpp"
+#include "ols_msg/skyline_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
@@ -49,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       decode<ols_msg::lens_command_t>,   decode<ols_msg::cue_t>,
       decode<ols_msg::cue_order_t>,      decode<ols_msg::sighting_t>,
       decode<ols_msg::command_reply_t>,  decode<ols_msg::incident_t>,
-      decode<ols_msg::occlusion_t>};
+      decode<ols_msg::occlusion_t>,      decode<ols_msg::skyline_t>};
   ols::fuzz::Input input(data, size);
   const std::size_t kind = input.byte();
   kDecoders[kind % kDecoders.size()](input.rest());

@@ -19,6 +19,7 @@
 #include "ols_msg/record_t.hpp"
 #include "ols_msg/sighting_t.hpp"
 #include "ols_msg/sim_fault_t.hpp"
+#include "ols_msg/skyline_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
@@ -99,6 +100,20 @@ ols_msg::occlusion_t occlusion() {
   message.exit_utime = kUtime + 3'000'000;
   message.azimuth_rad = 1.5;
   message.elevation_rad = 0.1;
+  return message;
+}
+
+ols_msg::skyline_t skyline() {
+  auto message = from_station<ols_msg::skyline_t>();
+  message.begun_utime = kUtime;
+  message.camera_ecef_m[0] = 6.37e6;
+  message.sector = 1;
+  message.columns = 1;
+  message.column = {100};
+  message.elevation_rad = {0.1F};
+  message.sd_rad = {0.01F};
+  message.hides_from_m = {100.0F};
+  message.disagrees = {1};
   return message;
 }
 
@@ -231,10 +246,13 @@ int main(int argc, char** argv) {
   }
   constexpr char kOcclusion = 16;
   write(folder / "messages" / "occlusion", kOcclusion + encoded(occlusion()));
+  write(folder / "messages" / "skyline", static_cast<char>(kOcclusion + 1) + encoded(skyline()));
   const std::string from_a = encoded(bearing("a", 0.5, 0.0));
   const std::string from_b = encoded(bearing("b", 2.0, 500.0));
   write(folder / "fusion_messages" / "two", framed('\0', from_a) + framed('\2', from_b));
   write(folder / "fusion_messages" / "status", framed('\1', encoded(status())));
+  write(folder / "fusion_messages" / "skyline",
+        framed('\1', encoded(status())) + framed('\100', encoded(skyline())));
   write(folder / "fusion_messages" / "cue",
         framed('\1', encoded(status())) + framed('\20', encoded(cue())) +
             framed('\40', encoded(cue_order())) + framed('\20', encoded(cue())));

@@ -37,6 +37,7 @@ class Kind:
 KINDS = (
     Kind("bearing", "bearing_t", "OLS_BEARING_", True),
     Kind("sighting", "sighting_t", "OLS_SIGHTING_", True),
+    Kind("skyline", "skyline_t", "OLS_SKYLINE_", True),
     Kind("station_status", "station_status_t", "OLS_STATUS_", True),
     Kind("target", "target_t", "OLS_TARGET", False),
     Kind("target_paper", "target_t", "OLS_TARGET_PAPER", False),

@@ -15,7 +15,7 @@ bool may(Role role, std::string_view name, std::string_view channel) {
 }
 
 TEST(ChannelRules, AStationSendsOnItsOwnChannelsOnly) {
-  for (const char* kind : {"BEARING", "SIGHTING", "STATUS", "PREVIEW", "FRAME"}) {
+  for (const char* kind : {"BEARING", "SIGHTING", "SKYLINE", "STATUS", "PREVIEW", "FRAME"}) {
     const std::string channel = "OLS_" + std::string(kind) + "_";
     EXPECT_TRUE(may(Role::kStation, "alfa", channel + "alfa")) << kind;
     EXPECT_FALSE(may(Role::kStation, "bravo", channel + "alfa")) << kind;

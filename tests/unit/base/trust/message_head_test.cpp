@@ -15,6 +15,7 @@
 #include "ols_msg/record_t.hpp"
 #include "ols_msg/sighting_t.hpp"
 #include "ols_msg/site_settings_t.hpp"
+#include "ols_msg/skyline_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
@@ -49,6 +50,7 @@ TEST(MessageHead, IsThatOfEachType) {
   expect_head<ols_msg::preview_t>(HeadForm::kStationFirst);
   expect_head<ols_msg::frame_part_t>(HeadForm::kStationFirst);
   expect_head<ols_msg::sighting_t>(HeadForm::kStationFirst);
+  expect_head<ols_msg::skyline_t>(HeadForm::kStationFirst);
   expect_head<ols_msg::procedure_t>(HeadForm::kStationFirst);
   expect_head<ols_msg::occlusion_t>(HeadForm::kBootFirst);
   expect_head<ols_msg::slew_t>(HeadForm::kBootFirst);

@@ -50,5 +50,36 @@ TEST(OcclusionSchedule, TellsAStationWhenAndWhereItsTargetComesOut) {
   EXPECT_GT(told, 20);
 }
 
+// The same wall, which no model has: the station has seen it.
+TEST(OcclusionSchedule, TellsAStationOfWhatOnlyItHasSeen) {
+  Geodetic place = site().origin();
+  const double level_m = place.height_m;
+  place.height_m = 0.0;
+  FusionConfig config;
+  config.land.surface =
+      std::make_shared<const Land>([level_m](double, double) { return level_m; }, 1.0, place);
+  SkylineSector wall{.station = "lookout",
+                     .begun_us = 1,
+                     .camera_ecef = site().to_ecef({0.0, -1000.0, 2.0}),
+                     .sector = 71};
+  for (int column = 7100; column < 7200; ++column) {
+    wall.columns.push_back({column, {0.5, 1e-4, 95.0, true}});
+  }
+  for (const bool is_seen : {false, true}) {
+    Fusion fusion(config);
+    if (is_seen) fusion.know_skyline(wall);  // of a station that is not known
+    fusion.know_station("lookout", {.camera_ecef = wall.camera_ecef});
+    int told = 0;
+    for (const BearingMeasurement& measurement : flight(3.0)) {
+      const auto notices = fusion.add(measurement).occlusions;
+      told += static_cast<int>(notices.size());
+      const double at_s = 1e-6 * static_cast<double>(measurement.utime_us - kStart);
+      EXPECT_FALSE(at_s < 1.4 && told > 0);
+      if (is_seen && at_s > 1.4) fusion.know_skyline(wall);
+    }
+    EXPECT_EQ(told > 5, is_seen);
+  }
+}
+
 }  // namespace
 }  // namespace ols::fusion

@@ -94,6 +94,27 @@ TEST(Occlusion, IsEndingWhileItMayStillBeHidden) {
   EXPECT_LT(found->exit->in_s, 0.5);
 }
 
+// As behind the wall that the land has, above.
+TEST(Occlusion, IsBehindWhatTheStationHasSeen) {
+  const auto land = std::make_shared<const Land>(flat);
+  LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});
+  land::SeenSkyline seen;
+  const double edge_rad = std::atan2(490.0, 50.0);
+  for (int column = 0; column < land::SeenSkyline::kColumns; ++column) {
+    if (std::abs(land::SeenSkyline::azimuth_rad(column) - kPi / 2.0) < kPi / 2.0 - edge_rad)
+      seen.set(column, {0.0, 1e-4, 490.0, true});
+  }
+  const auto path = straight(*land, {1000.0, 20.0, 20.0}, {0.0, 10.0, 0.0});
+  EXPECT_FALSE(occlusion_ahead(horizon, path, kStep_s, kLead_s));
+  const auto found = occlusion_ahead(horizon, path, kStep_s, kLead_s, &seen);
+  ASSERT_TRUE(found && found->exit);
+  EXPECT_GT(found->hidden, 0.95);
+  EXPECT_NEAR(found->exit->in_s, (50.0 / 490.0 * 1000.0 - 20.0) / 10.0, 0.5);
+  EXPECT_NEAR(found->exit->direction.azimuth_rad, edge_rad, 3e-3);
+  const auto before = straight(*land, {400.0, 0.0, 20.0}, {0.0, 1.0, 0.0});
+  EXPECT_FALSE(occlusion_ahead(horizon, before, kStep_s, kLead_s, &seen));
+}
+
 TEST(Occlusion, IsNotOfACameraUnderTheGround) {
   const auto land = std::make_shared<const Land>([](double, double) { return 100.0; });
   LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});

@@ -195,5 +195,24 @@ TEST(StationReport, OneLineSaysWhatIsWrong) {
   EXPECT_EQ(in_one_line(StationReport{}), "idle");
 }
 
+TEST(StationMessages, APartOfTheSkylineIsTold) {
+  skyline::SkylinePart part{9, {1e6, 2e6, 3e6}, true, 71, {}};
+  part.columns = {{7100, {0.125, 0.25, 100.0, true}}, {7199, {-0.5, 0.5, 0.0, false}}};
+  const ols_msg::skyline_t message = to_message(part, sender(), 50.0, 3);
+  EXPECT_EQ(message.utime, 1'700'000'050'000'000);
+  EXPECT_EQ(message.station, "alfa");
+  EXPECT_EQ(message.sequence, 3);
+  EXPECT_EQ(message.begun_utime, 9);
+  EXPECT_EQ(message.camera_ecef_m[1], 2e6);
+  EXPECT_TRUE(message.heading_disagrees);
+  EXPECT_EQ(message.sector, 71);
+  EXPECT_EQ(message.columns, 2);
+  EXPECT_EQ(message.column, (std::vector<std::int16_t>{7100, 7199}));
+  EXPECT_EQ(message.elevation_rad, (std::vector<float>{0.125F, -0.5F}));
+  EXPECT_EQ(message.sd_rad, (std::vector<float>{0.25F, 0.5F}));
+  EXPECT_EQ(message.hides_from_m, (std::vector<float>{100.0F, 0.0F}));
+  EXPECT_EQ(message.disagrees, (std::vector<std::int8_t>{1, 0}));
+}
+
 }  // namespace
 }  // namespace ols::station

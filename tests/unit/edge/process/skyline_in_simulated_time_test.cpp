@@ -1,7 +1,11 @@
 // What a station makes of the skyline of the land: its whole process in simulated time, with the
 // thread that reads the land and compares the pictures. The station watches its horizon.
+#include <map>
+
 #include "geometry/angles.h"
+#include "land/seen_skyline.h"
 #include "land/terrain_folder.h"
+#include "ols_msg/skyline_t.hpp"
 #include "sim/world/land_model.h"
 #include "tests/unit/edge/process/station_in_simulated_time.h"
 
@@ -58,8 +62,8 @@ void write_land(const sim::Scenario& scenario, const std::string& path) {
 class StationSkyline : public test::StationInSimulatedTime {
  protected:
   StationSkyline() : StationSkyline(0.0, true) {}
-  StationSkyline(double wrong_rad, bool has_land)
-      : StationInSimulatedTime(among_hills(), [=](StationSettings& settings) {
+  StationSkyline(double wrong_rad, bool has_land, const sim::Scenario& scenario = among_hills())
+      : StationInSimulatedTime(scenario, [=](StationSettings& settings) {
           settings.land_folder = settings.state_folder + "/land";
           if (has_land) write_land(among_hills(), settings.land_folder);
           const double heading_rad = settings.station.geometry.chain.heading_rad;
@@ -89,6 +93,54 @@ class StationWithWrongHeading : public StationSkyline {
   StationWithWrongHeading() : StationSkyline(kWrong_rad, true) {}
 };
 
+// Trees in the east, higher than the land behind them by this.
+constexpr double kTreesDistance_m = 400.0, kAboveLand_rad = radians(1.2);
+sim::Scenario behind_trees() {
+  sim::Scenario s = among_hills();
+  const sim::World world(s, 5);
+  const Eigen::Vector3d camera_m = world.camera_enu(0);
+  const Eigen::Vector2d east(1.0, 0.0);
+  const double top_rad =
+      std::atan(world.relief()->highest_slope(camera_m, east, 3000.0)) + kAboveLand_rad;
+  for (int i = -4; i <= 4; ++i) {
+    const Eigen::Vector2d place_m = camera_m.head<2>() + Eigen::Vector2d(kTreesDistance_m, 3.0 * i);
+    const double top_m = camera_m.z() + kTreesDistance_m * std::tan(top_rad);
+    s.relief.trees.push_back({place_m, top_m - world.relief()->ground_m(place_m), 2.0});
+  }
+  return s;
+}
+
+class StationBehindTrees : public StationSkyline {
+ protected:
+  StationBehindTrees() : StationSkyline(0.0, true, behind_trees()) {
+    bus_.subscribe("OLS_SKYLINE_alfa", [this](const BusMessage& message) {
+      ols_msg::skyline_t part{};
+      ASSERT_TRUE(decode_of_schema(message, part));
+      if (std::exchange(begun_us_, part.begun_utime) != part.begun_utime) crests_.clear();
+      for (std::size_t i = 0; i < part.column.size(); ++i) {
+        crests_[part.column[i]] = {part.elevation_rad[i], part.sd_rad[i], part.hides_from_m[i],
+                                   part.disagrees[i] != 0};
+      }
+    });
+  }
+  // Of the columns well within the trees.
+  std::vector<land::SeenCrest> of_trees() const {
+    std::vector<land::SeenCrest> found;
+    for (const auto& [column, crest] : crests_) {
+      const double off_rad = land::SeenSkyline::azimuth_rad(column) - 0.5 * kPi;
+      if (std::abs(off_rad) < 8.0 / kTreesDistance_m) found.push_back(crest);
+    }
+    return found;
+  }
+  bool sees_trees() const {
+    const auto crests = of_trees();
+    return crests.size() > 15 && std::ranges::all_of(crests, &land::SeenCrest::disagrees);
+  }
+
+  std::int64_t begun_us_ = 0;
+  std::map<int, land::SeenCrest> crests_;  // by column
+};
+
 class StationWithoutReadableLand : public StationSkyline {
  protected:
   StationWithoutReadableLand() : StationSkyline(0.0, false) {}
@@ -105,6 +157,34 @@ TEST_F(StationSkyline, ARightHeadingIsNeverDisputedAndAKnockIsNoticed) {
   EXPECT_FALSE(time_.pass(6.0 * kRound_s, [this] { return !said().empty(); })) << said();
   knock(degrees(2.0 * kWrong_rad));
   EXPECT_TRUE(time_.pass(6.0 * kRound_s, [this] { return says(kDisagrees); })) << said();
+}
+
+TEST_F(StationBehindTrees, SaysWhatTheyHideAndKnowsItAfterARestart) {
+  ASSERT_TRUE(time_.pass(4.0 * kRound_s, [this] { return sees_trees(); })) << of_trees().size();
+  const double top_rad = std::atan(
+      world_.relief()->highest_slope(world_.camera_enu(0), Eigen::Vector2d(1.0, 0.0), 3000.0));
+  for (const land::SeenCrest& crest : of_trees()) {
+    EXPECT_NEAR(crest.elevation_rad, top_rad, radians(0.1));
+    EXPECT_GT(crest.hides_from_m, 100.0);
+  }
+  double others = 0.0, disagree = 0.0;
+  for (const auto& [column, crest] : crests_) {
+    const double off_rad = land::SeenSkyline::azimuth_rad(column) - 0.5 * kPi;
+    if (std::abs(off_rad) < 20.0 / kTreesDistance_m) continue;
+    others += 1.0;
+    disagree += crest.disagrees ? 1.0 : 0.0;
+  }
+  EXPECT_GT(others, 1000.0);
+  EXPECT_LT(disagree, 0.03 * others);
+  time_.pass(SkylineStore::kInterval_s + 10.0, [] { return false; });
+  const auto begun_us = begun_us_;
+  restart();
+  crests_.clear();
+  begun_us_ = 0;
+  EXPECT_TRUE(time_.pass(kRound_s, [this] { return sees_trees(); }));
+  EXPECT_EQ(begun_us_, begun_us);
+  EXPECT_TRUE(give(Command::COMMAND_HOME));
+  EXPECT_TRUE(time_.pass(kRound_s, [&] { return begun_us_ != begun_us; }));
 }
 
 TEST_F(StationWithoutReadableLand, SaysSoAndWorks) {

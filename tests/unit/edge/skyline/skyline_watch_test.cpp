@@ -65,6 +65,7 @@ class SkylineWatchTest : public ::testing::Test {
   void look(double azimuth_deg, const Stated& stated) {
     StatedPicture picture;
     picture.mid_exposure_s = time_s_ += 5.0;
+    picture.utime_us = 1'700'000'000'000'000 + std::llround(1e6 * time_s_);
     panorama_.draw(R_enu_cam(radians(azimuth_deg)), picture.gray);
     picture.camera = {
         ecef_from_geodetic(stated.place),
@@ -83,6 +84,18 @@ class SkylineWatchTest : public ::testing::Test {
     Geodetic place = site_.camera();
     place.height_m = site_.model().ground(place.latitude_rad, place.longitude_rad)->height_m - by_m;
     return place;
+  }
+  // Stands before the land from now on, as high as this above its skyline.
+  void build(double azimuth_deg, double width_deg, double high_rad) {
+    panorama_.raise([=, this](double azimuth_rad) {
+      const bool is_there =
+          std::abs(wrap_pi(azimuth_rad - radians(azimuth_deg))) < radians(width_deg) / 2.0;
+      const auto skyline = truth_.skyline(azimuth_rad);
+      return is_there && skyline ? skyline->elevation_rad + high_rad : -0.5;
+    });
+  }
+  std::optional<land::SeenCrest> crest(double azimuth_deg) const {
+    return watch_.hiding().crests.at(radians(azimuth_deg));
   }
   bool says(const std::string& words) const {
     return watch_.alarm().text.find(words) != std::string::npos;
@@ -154,6 +167,52 @@ TEST_F(SkylineWatchTest, AnAlarmEndsWithWhatItIsFrom) {
   watch_.look(picture);
   EXPECT_FALSE(watch_.heading().has_value());
   EXPECT_TRUE(watch_.alarm().empty());
+}
+
+TEST_F(SkylineWatchTest, WhatNoModelHasIsSeenAndHides) {
+  constexpr double kHigh_rad = radians(1.5);
+  look(100.0, {site_.camera()});
+  ASSERT_TRUE(crest(100.0));
+  EXPECT_FALSE(crest(100.0)->disagrees);
+  EXPECT_GT(crest(100.0)->hides_from_m, 0.0);
+  build(100.0, 2.0, kHigh_rad);
+  for (int i = 0; i < 16; ++i) look(100.0, {site_.camera()});
+  const double truth_rad = truth_.skyline(radians(100.0))->elevation_rad + kHigh_rad;
+  EXPECT_NEAR(crest(100.0)->elevation_rad, truth_rad, radians(0.1));
+  EXPECT_TRUE(crest(100.0)->disagrees);
+  EXPECT_GT(crest(100.0)->hides_from_m, 0.0);
+  EXPECT_LE(crest(100.0)->hides_from_m, truth_.skyline(radians(100.0))->distance_m * 1.05);
+  EXPECT_FALSE(crest(97.0)->disagrees);
+}
+
+TEST_F(SkylineWatchTest, WhatHasBeenSeenIsKeptUntilItIsForgottenOrTheStationMoves) {
+  look(100.0, {site_.camera()});
+  const auto begun_us = watch_.hiding().begun_us;
+  EXPECT_NE(begun_us, 0);
+  time_s_ += 10.0 * SeenHorizon::kMemory_s;
+  look(200.0, {site_.camera()});
+  EXPECT_TRUE(crest(100.0) && crest(200.0));
+  EXPECT_EQ(watch_.hiding().begun_us, begun_us);
+  look(200.0, {.place = moved(20.0)});
+  EXPECT_FALSE(crest(100.0));
+  EXPECT_TRUE(crest(200.0));
+  EXPECT_GT(watch_.hiding().begun_us, begun_us);
+  watch_.forget();
+  EXPECT_TRUE(watch_.hiding().crests.empty());
+  EXPECT_EQ(watch_.hiding().begun_us, 0);
+}
+
+TEST_F(SkylineWatchTest, AnEarlierSkylineIsResumedOnlyAtItsPlace) {
+  look(100.0, {site_.camera()});
+  const HidingSkyline earlier = watch_.hiding();
+  for (const double away_m : {0.0, 20.0}) {
+    watch_ = SkylineWatch(std::make_shared<land::MadeLand>(site_.model()), quick_map());
+    watch_.resume(earlier);
+    watch_.forget();  // as at a start, when the mount's reference becomes known
+    look(200.0, {.place = moved(away_m)});
+    EXPECT_EQ(crest(100.0).has_value(), away_m == 0.0);
+    EXPECT_TRUE(crest(200.0));
+  }
 }
 
 TEST_F(SkylineWatchTest, APlaceUnderTheGroundIsSaid) {

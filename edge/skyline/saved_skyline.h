@@ -1,0 +1,43 @@
+// A station's seen skyline as it is saved over a restart, and its text in a file. Pure.
+//
+//   ols-skyline 1
+//   station ID
+//   calibration ID
+//   begun UTIME_us
+//   camera X_m Y_m Z_m                    (ECEF)
+//   COLUMN ELEVATION_deg SD_deg HIDES_FROM_m DISAGREES
+//   ...                                   (ascending columns, each of 0.05 degrees from north)
+//   sum HEX                               (FNV-1a, 64 bits, of everything before this line)
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "edge/skyline/skyline_watch.h"
+
+namespace ols::skyline {
+
+// Directions are comparable only from one station with one calibration.
+struct SkylineOwner {
+  std::string station;
+  std::int64_t calibration_id = 0;
+
+  bool operator==(const SkylineOwner&) const = default;
+};
+
+struct SavedSkyline {
+  SkylineOwner owner;
+  HidingSkyline skyline;
+};
+
+std::string to_text(const SavedSkyline& saved);
+
+// Returns the skyline in the text, or an error that names the line.
+std::variant<SavedSkyline, std::string> saved_skyline_from(std::string_view text);
+
+// Why `owner` cannot use it; empty if it can.
+std::string why_not_used(const SavedSkyline& saved, const SkylineOwner& owner);
+
+}  // namespace ols::skyline
