@@ -111,6 +111,10 @@ void Console::receive(const wire::Reply& reply) {
   cues_.receive(reply);
 }
 
+void Console::receive(const ReceivedSkyline& skyline) {
+  if (site_.knows(skyline.station)) skylines_.receive(skyline);
+}
+
 void Console::receive_bearing(const std::string& station, const Json& bearing) {
   site_.receive_bearing(station, bearing);
 }

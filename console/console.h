@@ -16,6 +16,7 @@
 #include "console/latest_pictures.h"
 #include "console/pending_orders.h"
 #include "console/procedures.h"
+#include "console/seen_skylines.h"
 #include "console/site_state.h"
 #include "console/viewers.h"
 
@@ -45,6 +46,7 @@ class Console {
   void receive(const ReceivedOcclusion& occlusion, const Now& now) {
     site_.receive(occlusion, now);
   }
+  void receive(const ReceivedSkyline& skyline);
   void receive_bearing(const std::string& station, const Json& bearing);
   void receive(Picture picture);
   void receive(ReceivedProcedure procedure);
@@ -119,6 +121,8 @@ class Console {
   Json state(const Now& now) const;
   // The fields of a station's last status; null: the station is unknown.
   const Json* fields_of(const std::string& id) const { return site_.fields_of(id); }
+  // Where a station's pictures disagree with the land's skyline (SeenSkylines::of()).
+  Json seen_skyline(const std::string& station) const { return skylines_.of(station); }
   Json health(const Now& now) const;
   // Adds an event about this console. `who`: the person who did it; empty: nobody did.
   void note(const std::string& who, const Alarm& what, const Now& now);
@@ -170,6 +174,7 @@ class Console {
   PendingOrders orders_;
   ControlLeases control_;
   Procedures procedures_;
+  SeenSkylines skylines_;
   CueOrders cues_;
   IncidentBook incidents_;
   IncidentBook::News incident_news_;

@@ -47,6 +47,9 @@ void ConsoleBus::subscribe(LcmBus& bus) {
   bus.subscribe(station_channel(kOcclusionChannel, ".+"), [this](const BusMessage& message) {
     if (const auto heard = occlusion_from(message)) console_.receive(*heard, now_);
   });
+  bus.subscribe(station_channel(kSkylineChannel, ".+"), [this](const BusMessage& message) {
+    if (const auto heard = skyline_from(message)) console_.receive(*heard);
+  });
   bus.subscribe(std::string(kFusionStatusChannel), [this](const BusMessage& message) {
     if (auto heard = fusion_from(message)) console_.receive(*heard, now_);
   });

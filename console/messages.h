@@ -9,6 +9,7 @@
 
 #include "base/bus/bus_inbox.h"
 #include "console/received.h"
+#include "console/seen_skylines.h"
 
 namespace ols::console {
 
@@ -17,6 +18,7 @@ std::optional<ReceivedStation> station_from(const BusMessage& message);
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message);
 // nullopt for another channel: the paper's estimate is not shown as a target.
 std::optional<ReceivedTarget> target_from(const BusMessage& message);
+std::optional<ReceivedSkyline> skyline_from(const BusMessage& message);
 std::optional<ReceivedOcclusion> occlusion_from(const BusMessage& message);
 std::optional<ReceivedFusion> fusion_from(const BusMessage& message);
 

@@ -201,7 +201,8 @@ WebAnswer WebApi::get(const WebRequest& request, const Now& now) const {
   return refused(404, "there is no " + path);
 }
 
-// "/api/land/skyline/STATION" or "/api/land/profile/STATION", or what land_task() knows.
+// "/api/land/skyline/STATION", "/api/land/seen/STATION" or "/api/land/profile/STATION", or what
+// land_task() knows.
 WebAnswer WebApi::land(const std::string& path, const std::string& query) const {
   if (const auto task = land_task(path, query)) return *task;
   const std::string_view rest = std::string_view(path).substr(std::string_view("/api/land").size());
@@ -210,14 +211,16 @@ WebAnswer WebApi::land(const std::string& path, const std::string& query) const 
     const std::string id = unescaped(rest.substr(slash + 1)).value_or("");
     const Json* station = console_.fields_of(id);
     if (!station) return refused(404, outcome::no_such_station());
+    if (rest.substr(1, slash - 1) == "seen") return json(200, console_.seen_skyline(id));
     const auto camera = camera_of(*station);
     if (!camera) return refused(409, outcome::camera_place_unknown());
     if (const auto task = land_task(rest.substr(1, slash - 1), query, id, *camera)) return *task;
   }
-  return refused(400,
-                 "there are /api/land, /api/land/ground?at=LATITUDE,LONGITUDE, /api/land/heights?"
-                 "box=WEST,SOUTH,EAST,NORTH [deg], small, /api/land/skyline/STATION and "
-                 "/api/land/profile/STATION?to=LATITUDE,LONGITUDE,HEIGHT");
+  return refused(
+      400,
+      "there are /api/land, /api/land/ground?at=LATITUDE,LONGITUDE, /api/land/heights?"
+      "box=WEST,SOUTH,EAST,NORTH [deg], small, /api/land/skyline/STATION, "
+      "/api/land/seen/STATION and /api/land/profile/STATION?to=LATITUDE,LONGITUDE,HEIGHT");
 }
 
 WebAnswer WebApi::log_in(const WebRequest& request, const Now& now) {

@@ -93,8 +93,8 @@ def page(chromium, consoles):
         yield opened
 
 
-def green_row(page, station, column):
-    """The row of the full frame at which the skyline's colour is, about this column; None: none."""
+def marked_row(page, station, column, is_mark):
+    """The row of the full frame at which a mark's colour is, about this column; None: none."""
     data = page.evaluate(
         """([name, full, column]) => {
           const c = document.querySelector(`[role=img][aria-label=${name}]`);
@@ -105,8 +105,16 @@ def green_row(page, station, column):
     )
     colours = np.array(data["d"], int).reshape(-1, 4)
     r, g, b = colours[:, 0], colours[:, 1], colours[:, 2]
-    rows = np.flatnonzero((g > r + 40) & (g > b + 25))  # --mark-skyline
+    rows = np.flatnonzero(is_mark(r, g, b))
     return rows.mean() * FULL_PX[1] / data["h"] if rows.size else None
+
+
+def green_row(page, station, column):
+    return marked_row(page, station, column, lambda r, g, b: (g > r + 40) & (g > b + 25))
+
+
+def red_row(page, station, column):
+    return marked_row(page, station, column, lambda r, g, b: (r > g + 80) & (r > b + 80))
 
 
 def test_the_skyline_is_where_the_camera_sees_the_ridge(page):
@@ -126,6 +134,30 @@ def test_the_skyline_is_where_the_camera_sees_the_ridge(page):
     wait(lambda: green_row(page, "alfa", 640) is None, "a picture without it")
     page.get_by_label("Skyline of the land").check()
     wait(lambda: green_row(page, "alfa", 640), "the skyline again")
+
+
+def test_where_the_picture_disagrees_with_the_skyline_it_is_red(page, paper):
+    """Something three degrees high and two degrees wide, due north of alfa."""
+    elevation_deg, half_deg = 3.0, 1.0
+    m = ols_msg.skyline_t()
+    m.schema_version, m.station, m.boot_id = m.SCHEMA_VERSION, "alfa", 1
+    enlarge(page, "alfa")
+    for sector, columns in ((0, range(0, 40)), (71, range(7160, 7200))):
+        m.utime, m.begun_utime = paper.utime_us(), 1
+        m.sector, m.columns, m.column = sector, len(columns), list(columns)
+        m.elevation_rad = [math.radians(elevation_deg)] * len(columns)
+        m.sd_rad, m.hides_from_m = [1e-4] * len(columns), [300.0] * len(columns)
+        m.disagrees = [min(i, 7199 - i) * 0.05 < half_deg for i in columns]
+        paper._publish("OLS_SKYLINE_alfa", m)
+    found = wait(lambda: red_row(page, "alfa", 640), "the red line")
+    row = FULL_PX[1] / 2 - FOCAL_LENGTH_PX * math.tan(math.radians(elevation_deg - ELEVATION_DEG))
+    assert abs(found - row) < 4, (found, row)
+    width_px = FOCAL_LENGTH_PX * math.tan(math.radians(half_deg))
+    for column in (640 - 0.8 * width_px, 640 + 0.8 * width_px):
+        assert red_row(page, "alfa", column)
+    for column in (640 - 1.3 * width_px, 640 + 1.3 * width_px):
+        assert red_row(page, "alfa", column) is None
+        wait(lambda at=column: green_row(page, "alfa", at), "the skyline as the land has it")
 
 
 @pytest.fixture

@@ -91,3 +91,27 @@ test("a place's latitude and longitude", () => {
     assert.ok(Math.abs(found.latitude_deg - latitude) < 1e-7 && Math.abs(found.longitude_deg - longitude) < 1e-7);
   }
 });
+
+test("where the picture disagrees is drawn at the picture's elevation, and renewed", async () => {
+  let differing = [[90.025, 2], [90.125, 2], [90.525, 2]];
+  const asked: string[] = [];
+  globalThis.fetch = (async (path: string) => (asked.push(path), { json: async () => ({ differing }) })) as any;
+  const skylines = new Skylines(() => {});
+  const points = () => skylines.differingIn(picture(camera(90)));
+  at(100_000);
+  assert.deepEqual(points(), []);
+  await settled();
+  const [line, ...others] = points();
+  assert.equal(others.length, 0, "one column alone is no line");
+  assert.equal(line.length, 3, "with the gap between two columns of a wide lens");
+  const [x, y] = line[0];
+  assert.ok(Math.abs(x - 640 - FOCAL_PX * Math.tan((0.025 * Math.PI) / 180)) < 1 && Math.abs(y - (480 - FOCAL_PX * Math.tan((2 * Math.PI) / 180))) < 1, String(line[0]));
+  differing = [];
+  at(104_000);
+  assert.equal(points().length, 1);
+  at(106_000);
+  points();
+  await settled();
+  assert.deepEqual(points(), []);
+  assert.deepEqual(asked, ["/api/land/seen/alfa", "/api/land/seen/alfa"]);
+});

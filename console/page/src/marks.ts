@@ -36,8 +36,9 @@ export function marksOf(site: Site, picture: Picture): Mark[] {
   return marks;
 }
 
-// Lines in the picture: where the optical axis may not go, the horizon, and the land's skyline.
-export type PictureLine = { kind: "keep-out" | "travel" | "horizon" | "skyline"; points: [number, number][] };
+// Lines in the picture: where the optical axis may not go, the horizon, the land's skyline, and where the picture
+// disagrees with it.
+export type PictureLine = { kind: "keep-out" | "travel" | "horizon" | "skyline" | "differing"; points: [number, number][] };
 
 const PARTS = 8; // of the way from one point of an outline to the next
 

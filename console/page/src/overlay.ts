@@ -79,19 +79,20 @@ const LINES: Record<PictureLine["kind"], { colour: string; dash: number[] }> = {
   travel: { colour: "--mark-travel", dash: [3, 6] },
   horizon: { colour: "--mark-horizon", dash: [] },
   skyline: { colour: "--mark-skyline", dash: [] },
+  differing: { colour: "--mark-differing", dash: [] },
 };
 
 function drawLine(g: CanvasRenderingContext2D, { kind, points }: PictureLine, unit: number) {
   g.save();
   g.beginPath();
   for (const [x, y] of points) g.lineTo(x, y);
-  if (kind === "skyline") {
+  if (kind === "skyline" || kind === "differing") {
     // Between a bright sky and a dark land neither colour would be seen everywhere.
     g.lineWidth = 3 * unit;
     g.strokeStyle = "rgba(0,0,0,.45)";
     g.stroke();
   }
-  g.lineWidth = (LINES[kind].dash.length ? 2 : 1) * unit;
+  g.lineWidth = (kind === "differing" || LINES[kind].dash.length ? 2 : 1) * unit;
   g.strokeStyle = colour(LINES[kind].colour);
   g.setLineDash(LINES[kind].dash.map((part) => part * unit));
   g.stroke();
@@ -101,7 +102,8 @@ function drawLine(g: CanvasRenderingContext2D, { kind, points }: PictureLine, un
 function linesOf(site: Site, picture: Picture, skylines: Skylines | null): PictureLine[] {
   const horizon = horizonOf(site, picture);
   const skyline = skylines?.linesIn(picture).map((points): PictureLine => ({ kind: "skyline", points })) ?? [];
-  return [...bordersOf(site, picture), ...(horizon ? [horizon] : []), ...skyline];
+  const differing = skylines?.differingIn(picture).map((points): PictureLine => ({ kind: "differing", points })) ?? [];
+  return [...bordersOf(site, picture), ...(horizon ? [horizon] : []), ...skyline, ...differing];
 }
 
 // Picture and overlay in one call, from one message: they always belong together. Everything in the

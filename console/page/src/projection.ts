@@ -28,11 +28,12 @@ export function onGround([x, y, z]: number[]): { latitude_deg: number; longitude
   return { latitude_deg: (latitude * 180) / Math.PI, longitude_deg: (Math.atan2(y, x) * 180) / Math.PI };
 }
 
-// Unit vectors (ECEF) of elevations [deg] at equal steps of azimuth, clockwise from north; null where there is none.
-export function unitsEcef({ latitude_deg, longitude_deg }: { latitude_deg: number; longitude_deg: number }, elevations_deg: (number | null)[]): (number[] | null)[] {
+// Unit vectors (ECEF) of elevations [deg] at equal steps of azimuth, clockwise from north, the first after a part of a
+// step; null where there is none.
+export function unitsEcef({ latitude_deg, longitude_deg }: { latitude_deg: number; longitude_deg: number }, elevations_deg: (number | null)[], first = 0): (number[] | null)[] {
   return elevations_deg.map((elevation_deg, i) => {
     if (elevation_deg == null) return null;
-    const [a, e] = [(2 * Math.PI * i) / elevations_deg.length, (elevation_deg * Math.PI) / 180];
+    const [a, e] = [(2 * Math.PI * (i + first)) / elevations_deg.length, (elevation_deg * Math.PI) / 180];
     return moved([0, 0, 0], latitude_deg, longitude_deg, [Math.cos(e) * Math.sin(a), Math.cos(e) * Math.cos(a), Math.sin(e)]);
   });
 }

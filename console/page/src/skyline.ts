@@ -1,5 +1,6 @@
-// The land's skyline in the stations' pictures. Each station's is asked for once for each place of its camera, and
-// projected once for each pose and zoom.
+// The land's skyline in the stations' pictures, and where a picture disagrees with it. Each station's skyline is asked
+// for once for each place of its camera, and projected once for each pose and zoom; where its pictures disagree is asked
+// for every few seconds while it is drawn.
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { HttpAnswer } from "./conditions";
@@ -15,6 +16,9 @@ type Projected = { camera: Camera; known: Known; full_px: number[]; lines: Pixel
 
 const MOVED_M = 2; // kMoved_m of console/land_skylines.h, and its answer's rounding
 const AGAIN_MS = 10_000; // after one that cannot be had
+const RENEWED_MS = 5000; // where pictures disagree: a station takes one so often
+const COLUMNS = 7200; // SeenSkyline::kColumns of land/seen_skyline.h
+const GAP = 3; // columns: those of a wide lens are fewer than the skyline's
 const SOON_MS = 1000; // while it is being computed
 
 const isSame = (a: number[], b: number[]) => a.every((value, i) => value === b[i]);
@@ -45,10 +49,25 @@ export function projected(known: (number[] | null)[], camera: Camera, [width, he
   return lines;
 }
 
+// The elevations of all columns, of those that differ and of the gaps between them.
+export function filled(differing: [number, number][]): (number | null)[] {
+  const elevations: (number | null)[] = Array(COLUMNS).fill(null);
+  let last: [number, number] | null = null;
+  for (const [azimuth_deg, elevation_deg] of differing) {
+    const column = Math.floor((azimuth_deg / 360) * COLUMNS);
+    if (last && column - last[0] <= GAP) for (let i = last[0] + 1; i < column; i++) elevations[i] = last[1] + ((elevation_deg - last[1]) * (i - last[0])) / (column - last[0]);
+    elevations[column] = elevation_deg;
+    last = [column, elevation_deg];
+  }
+  return elevations;
+}
+
 export class Skylines {
   private known = new Map<string, Known>();
   private asked_ms = new Map<string, number>();
   private shown = new Map<string, Projected>();
+  private seen = new Map<string, (number[] | null)[]>();
+  private askedSeen_ms = new Map<string, number>();
   problems = new Map<string, HttpAnswer>(); // by station
 
   constructor(private onNews: () => void) {}
@@ -65,6 +84,23 @@ export class Skylines {
     const lines = projected(known.units, camera, full_px);
     this.shown.set(station, { camera, known, full_px, lines });
     return lines;
+  }
+
+  // Above the skyline or below: where the picture has it, if they disagree.
+  differingIn({ camera, station, full_px }: Picture): Pixels[] {
+    if (!camera) return [];
+    void this.askSeen(station, camera.ecef_m);
+    const seen = this.seen.get(station);
+    return seen ? projected(seen, camera, full_px) : [];
+  }
+
+  private async askSeen(station: string, ecef_m: number[]) {
+    if (performance.now() - (this.askedSeen_ms.get(station) ?? -Infinity) < RENEWED_MS) return;
+    this.askedSeen_ms.set(station, performance.now());
+    const answer = await askLand<{ differing?: [number, number][] }>(`/seen/${encodeURIComponent(station)}`);
+    if (!answer?.differing) return;
+    this.seen.set(station, unitsEcef(onGround(ecef_m), filled(answer.differing), 0.5));
+    this.onNews();
   }
 
   private async ask(station: string) {

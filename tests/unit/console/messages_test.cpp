@@ -8,6 +8,7 @@
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/occlusion_t.hpp"
+#include "ols_msg/skyline_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
 #include "tests/unit/on_the_bus.h"
@@ -106,6 +107,26 @@ TEST(ConsoleMessages, WhatTheLandHidesFromAStation) {
   message.hidden = 0.2;
   EXPECT_FALSE(occlusion_from(on("OLS_OCCLUSION_alfa", message))->is_hidden);
   EXPECT_FALSE(occlusion_from(on("OLS_OCCLUSION_bravo", message)));
+}
+
+TEST(ConsoleMessages, WhereAPictureDisagreesWithTheLand) {
+  auto message = made<ols_msg::skyline_t>();
+  message.station = "alfa";
+  message.begun_utime = 5;
+  message.sector = 71;
+  message.columns = 3;
+  message.column = {7100, 7199, 7000};  // the last is not of this sector
+  message.elevation_rad = {0.125F, 0.25F, 0.25F};
+  message.sd_rad = message.hides_from_m = {1.0F, 1.0F, 1.0F};
+  message.disagrees = {0, 1, 1};
+  const auto heard = skyline_from(on("OLS_SKYLINE_alfa", message));
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->begun_us, 5);
+  EXPECT_EQ(heard->sector, 71);
+  EXPECT_EQ(heard->differing, (std::vector<std::pair<int, double>>{{7199, 0.25}}));
+  EXPECT_FALSE(skyline_from(on("OLS_SKYLINE_bravo", message)));
+  message.sector = 72;
+  EXPECT_FALSE(skyline_from(on("OLS_SKYLINE_alfa", message)));
 }
 
 TEST(ConsoleMessages, ABearingIsOfTheStationOfItsChannel) {
