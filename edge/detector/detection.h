@@ -2,12 +2,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace ols::detector {
 
 enum class Evidence {
   kSpot,   // a compact spot in front of smooth surroundings, such as the sky
   kMover,  // differs from the aligned scene of a moment ago
+  kStack,  // a point that only the sum of several images shows, shifted along its path
+};
+
+// The path of a point that is followed through stacks of images.
+struct Path {
+  long id;                        // of the point
+  Eigen::Vector2d velocity_px_s;  // relative to the scene
 };
 
 struct Detection {
@@ -16,8 +24,9 @@ struct Detection {
   double signal_to_noise = 0.0;                       // signal-to-noise ratio of its peak
   bool brighter = false;                              // brighter than its surroundings or the scene
   Evidence evidence = Evidence::kSpot;
-  bool clear = false;    // a spot with nothing similar in its wider surroundings
-  double sd_px() const;  // 1-sigma of its position, each axis
+  bool clear = false;                       // a spot with nothing similar in its wider surroundings
+  std::optional<Path> path = std::nullopt;  // of a kStack
+  double sd_px() const;                     // 1-sigma of its position, each axis
 };
 
 }  // namespace ols::detector

@@ -25,6 +25,29 @@ void join(std::vector<Detection>& spots, const std::vector<Detection>& movers) {
   }
 }
 
+// Adds the dim points that are no part of anything that single images show: the edge of a larger
+// object is a dim point, too.
+void join(std::vector<Detection>& shown, const std::vector<Detection>& dim,
+          const std::vector<Tracklet>& tracklets) {
+  constexpr double kMargin_px = 8.0;
+  const auto covers = [](const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px,
+                         const Detection& point) {
+    const Eigen::Vector2d apart = (point.pixel - pixel).cwiseAbs() - 0.5 * size_px;
+    return apart.maxCoeff() < kMargin_px;
+  };
+  const std::size_t count = shown.size();
+  for (const Detection& point : dim) {
+    const bool is_shown = std::any_of(
+        shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(count),
+        [&](const Detection& other) { return covers(other.pixel, other.size_px, point); });
+    const bool is_known = std::ranges::any_of(tracklets, [&](const Tracklet& tracklet) {
+      return tracklet.confirmed() && !tracklet.path() &&
+             covers(tracklet.pixel(), tracklet.size_px(), point);
+    });
+    if (!is_shown && !is_known) shown.push_back(point);
+  }
+}
+
 // The box of the likeliest object in front of the sky, with a margin. Its corners are often the
 // only ones there, and would make the scene seem to move along with it.
 cv::Rect2d clearest_box(const std::vector<Tracklet>& tracklets) {
@@ -46,6 +69,7 @@ Detector::Detector(const DetectorConfig& config, const cv::Size& image)
     : ego_motion_(tracker::TrackerConfig{}, tracker::HomographyFit::kLeastSquares),
       spots_(config.spots),
       movers_(config.movers),
+      dim_(config.dim),
       book_(config.tracklets, image) {}
 
 std::optional<Eigen::Matrix3d> Detector::measure_motion(
@@ -75,8 +99,10 @@ Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
   result.detections = spots_.find(gray);
   if (result.suspended) {
     ++suspended_images_;
+    dim_.clear();
   } else {
     join(result.detections, *movers);
+    join(result.detections, dim_.find(gray, time_s, motion), book_.tracklets());
   }
   book_.advance(result.detections, motion, interval_s);
   return result;

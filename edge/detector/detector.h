@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "edge/detector/dim_finder.h"
 #include "edge/detector/mover_finder.h"
 #include "edge/detector/spot_finder.h"
 #include "edge/detector/tracklet_book.h"
@@ -17,6 +18,7 @@ namespace ols::detector {
 struct DetectorConfig {
   SpotConfig spots;
   MoverConfig movers;
+  DimConfig dim;
   TrackletConfig tracklets;
 };
 
@@ -43,6 +45,7 @@ class Detector {
   tracker::EgoMotionEstimator ego_motion_;
   SpotFinder spots_;
   MoverFinder movers_;
+  DimFinder dim_;
   TrackletBook book_;
   std::optional<double> time_s_;  // of the newest image
   long suspended_images_ = 0;

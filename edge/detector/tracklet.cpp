@@ -29,6 +29,7 @@ Tracklet::Tracklet(long id, const Detection& detection, double image_width_px)
       brighter_(detection.brighter) {
   begin_motion(detection, image_width_px);
   clear_ = detection.clear ? 1 : 0;
+  if (detection.path) path_ = detection.path->id;
 }
 
 void Tracklet::begin_motion(const Detection& detection, double image_width_px) {
@@ -37,6 +38,10 @@ void Tracklet::begin_motion(const Detection& detection, double image_width_px) {
   pixel_ = detection.pixel;
   velocity_px_s_.setZero();
   covariance_ << sd_px * sd_px, 0.0, 0.0, speed_px_s * speed_px_s;
+  if (!detection.path) return;
+  constexpr double kPathSpeed_px_s = 5.0;  // a path's error
+  velocity_px_s_ = detection.path->velocity_px_s;
+  covariance_(1, 1) = kPathSpeed_px_s * kPathSpeed_px_s;
 }
 
 void Tracklet::predict(const Eigen::Matrix3d& motion, double interval_s) {
@@ -120,7 +125,9 @@ void Tracklet::count(const Detection& detection) {
   measured_size_px_ = detection.size_px;
   ++detections_;
   if (detection.clear) ++clear_;
+  if (detection.path) path_ = detection.path->id;
   unseen_s_ = 0.0;
+  unseen_images_ = 0;
   seen_ = true;
   reach_px_ = std::max(reach_px_, (pixel_ - first_pixel_).norm());
 }

@@ -23,7 +23,10 @@ class Tracklet {
   // Notes that the object was found again away from its prediction: position and velocity begin
   // anew.
   void leap(const Detection& detection, double image_width_px);
-  void miss() { seen_ = false; }
+  void miss() {
+    seen_ = false;
+    ++unseen_images_;
+  }
 
   // Whether the detection has the same polarity and about the same size.
   bool resembles(const Detection& detection) const;
@@ -55,6 +58,10 @@ class Tracklet {
   const std::optional<Outline>& outline() const { return outline_; }
   void measure_outline(const cv::Mat& gray);
   double signal_to_noise() const { return signal_to_noise_; }
+  // The point that stacks of images have last shown here, and the number of images without any
+  // detection; nullopt if only single images show it.
+  const std::optional<long>& path() const { return path_; }
+  int unseen_images() const { return unseen_images_; }
   bool seen() const { return seen_; }  // whether the newest image shows it
   double unseen_s() const { return unseen_s_; }
   double age_s() const { return age_s_; }
@@ -96,7 +103,8 @@ class Tracklet {
   double signal_to_noise_;
   bool brighter_;
   double log_ratio_ = 0.0, unseen_s_ = 0.0, age_s_ = 0.0;
-  int detections_ = 1, clear_ = 0;
+  int detections_ = 1, clear_ = 0, unseen_images_ = 0;
+  std::optional<long> path_;
   bool confirmed_ = false, confirmed_clear_ = false, seen_ = true, rests_ = false;
 };
 

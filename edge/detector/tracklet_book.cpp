@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "edge/detector/velocity_stack.h"
 #include "geometry/assignment.h"
 
 namespace ols::detector {
@@ -12,23 +13,35 @@ namespace {
 constexpr double kGate = 16.0;      // squared standard deviations
 constexpr double kReserve = 6.0;    // [log] that a confirmed tracklet keeps for misses
 constexpr double kRejected = -2.5;  // [log] the test's lower bound
+constexpr int kStackImages = VelocityStack::kImages;  // from one detection by a stack to the next
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 TrackletBook::TrackletBook(const TrackletConfig& config, const cv::Size& image)
     : config_(config), clutter_(image), image_(image) {}
 
+// In squared standard deviations. The path of a dim point says which tracklet it is. Anything else
+// belongs to that tracklet only if it is close: between two stacks the prediction becomes so
+// uncertain that all noise around would fit.
+double TrackletBook::distance(const Tracklet& tracklet, const Detection& detection) const {
+  constexpr double kNear_px = 6.0;
+  if (!tracklet.path()) return tracklet.distance(detection);
+  if (detection.path && detection.path->id == *tracklet.path()) return 0.0;
+  if ((detection.pixel - tracklet.pixel()).norm() > kNear_px) return kNever;
+  return tracklet.distance(detection);
+}
+
 // For each tracklet the index of its detection, -1: none. As many as possible get one, confirmed
 // ones before the others, and the nearest of these.
 std::vector<int> TrackletBook::assign(const std::vector<Detection>& detections) const {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
   Eigen::MatrixXd cost(tracklets_.size(), detections.size());
   for (std::size_t i = 0; i < tracklets_.size(); ++i) {
     const double rank = tracklets_[i].confirmed() ? 0.0 : 2.0 * kGate;
     for (std::size_t j = 0; j < detections.size(); ++j) {
-      const double distance = tracklets_[i].distance(detections[j]);
+      const double off = distance(tracklets_[i], detections[j]);
       cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          distance > kGate ? kNever : rank + distance;
+          off > kGate ? kNever : rank + off;
     }
   }
   return ols::assign(cost, 4.0 * kGate);
@@ -61,6 +74,10 @@ double TrackletBook::needed(const Tracklet& tracklet) const {
 }
 
 void TrackletBook::weigh_hit(Tracklet& tracklet, const Detection& detection) {
+  if (detection.path) {
+    tracklet.weigh(config_.stack_log_ratio, needed(tracklet) + kReserve);
+    return;
+  }
   const double ratio =
       config_.detected * tracklet.density(detection) / clutter_.density(detection.pixel);
   const double most = detection.clear ? config_.most_log_ratio : config_.most_ground_log_ratio;
@@ -68,7 +85,9 @@ void TrackletBook::weigh_hit(Tracklet& tracklet, const Detection& detection) {
   tracklet.weigh(log_ratio, needed(tracklet) + kReserve);
 }
 
+// What only stacks show is expected in one image of several.
 void TrackletBook::weigh_miss(Tracklet& tracklet) {
+  if (tracklet.path() && tracklet.unseen_images() % kStackImages != 0) return;
   tracklet.weigh(std::log(1.0 - config_.detected), needed(tracklet) + kReserve);
 }
 
@@ -93,6 +112,7 @@ bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
 // misaligned image. A spot in front of a clear sky need not move.
 bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
   if (belongs_to_scene_or_camera(tracklet)) return false;
+  if (tracklet.path()) return true;  // a stack shows only what moves on a straight path
   if (tracklet.mostly_clear() && !crowded(tracklet.pixel())) return true;
   const double way_px = tracklet.way_px();
   return way_px > 5.0 + 0.5 * tracklet.size_px().minCoeff() &&
@@ -111,6 +131,9 @@ bool TrackletBook::hopeless(const Tracklet& tracklet) const {
   const bool outside =
       pixel.x() < 0.0 || pixel.y() < 0.0 || pixel.x() >= image_.width || pixel.y() >= image_.height;
   if (outside) return true;
+  if (tracklet.path()) {
+    return tracklet.log_ratio() < kRejected || tracklet.unseen_images() > 2 * kStackImages;
+  }
   if (tracklet.confirmed()) return tracklet.unseen_s() > config_.coast_s;
   return tracklet.log_ratio() < kRejected || tracklet.unseen_s() > 0.5 * config_.coast_s;
 }

@@ -20,6 +20,9 @@ struct TrackletConfig {
   // ratio.
   double most_log_ratio = 1.5;         // for a spot in front of clear sky
   double most_ground_log_ratio = 0.7;  // for anything else
+  // What a point adds that a stack of images shows where its path leads. Noise does so once in 250
+  // times.
+  double stack_log_ratio = 4.0;
   double least_directness =
       0.7;  // for objects in front of the ground: smallest distance over length of the path
   double coast_s = 0.4;  // how long an object remains while it is not seen
@@ -36,6 +39,7 @@ class TrackletBook {
 
  private:
   std::vector<int> assign(const std::vector<Detection>& detections) const;
+  double distance(const Tracklet& tracklet, const Detection& detection) const;
   void leap(const std::vector<Detection>& detections, std::vector<bool>& taken);
   void weigh_hit(Tracklet& tracklet, const Detection& detection);
   void weigh_miss(Tracklet& tracklet);

@@ -120,6 +120,19 @@ TEST(Detector, FindsPointsBeforeTheSkyWithinASecond) {
   }
 }
 
+// Two standard deviations in the mean of its 3 by 3 pixels.
+TEST(Detector, FindsADimMoverBeforeTheSkyWithinThreeSeconds) {
+  constexpr int kLong = 90;
+  const Watch watch(
+      [&](int i) {
+        cv::Mat image = sky();
+        add(image, {40 + 2 * i, 60 + i, 3, 3}, 2.0 * kNoise);
+        return image;
+      },
+      kLong);
+  expect_at(watch.only(), 41 + 2 * (kLong - 1), 61 + kLong - 1);
+}
+
 TEST(Detector, FindsWhatHovers) {
   const Watch watch([](int) {
     cv::Mat image = sky();

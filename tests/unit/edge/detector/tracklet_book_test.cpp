@@ -204,5 +204,65 @@ TEST(TrackletBook, CrowdedTileNeedsMoreThanAnEmptyOne) {
   EXPECT_LT(crowded, 120);
 }
 
+constexpr int kStack = 8;  // images
+
+// Of a point that moves by a pixel per image, in a stack's last image.
+Detection dim_point(int image, long path) {
+  Detection point;
+  point.pixel = {100.0 + image, 200.0};
+  point.size_px = {4.0, 4.0};
+  point.brighter = true;
+  point.evidence = Evidence::kStack;
+  point.path = Path{path, {1.0 / kTick_s, 0.0}};
+  return point;
+}
+
+// As many images, in which the first stacks show a point.
+void show(TrackletBook& book, int stacks, int images) {
+  for (int image = 0; image < images; ++image) {
+    const bool shown = image % kStack == 0 && image / kStack < stacks;
+    book.advance(shown ? std::vector{dim_point(image, 1)} : std::vector<Detection>{}, kStill,
+                 kTick_s);
+  }
+}
+
+TEST(TrackletBook, ConfirmsADimPointByAFewStacks) {
+  TrackletBook once(TrackletConfig{}, kView);
+  show(once, 2, kStack + 1);
+  EXPECT_EQ(confirmed(once), 0) << "two stacks may be noise";
+  TrackletBook book(TrackletConfig{}, kView);
+  show(book, 4, 3 * kStack + 1);
+  ASSERT_EQ(confirmed(book), 1);
+  ASSERT_EQ(book.tracklets().size(), 1U);
+  EXPECT_NEAR(book.tracklets()[0].pixel().x(), 100.0 + 3 * kStack, 1.0);
+}
+
+TEST(TrackletBook, DimPointGoesOnBetweenStacksAndEndsAfterTwo) {
+  TrackletBook book(TrackletConfig{}, kView);
+  show(book, 5, 5 * kStack + 5);
+  ASSERT_EQ(confirmed(book), 1);
+  EXPECT_FALSE(book.tracklets()[0].seen()) << "no measurement in this image";
+  EXPECT_NEAR(book.tracklets()[0].pixel().x(), 100.0 + 5 * kStack + 4, 3.0);
+  for (int image = 0; image < 2 * kStack; ++image) book.advance({}, kStill, kTick_s);
+  EXPECT_TRUE(book.tracklets().empty());
+}
+
+TEST(TrackletBook, SpotsAroundADimPointAreNotIt) {
+  TrackletBook book(TrackletConfig{}, kView);
+  show(book, 5, 4 * kStack + 1);
+  for (int image = 1; image < kStack; ++image)
+    book.advance({clear_spot(100.0 + 4 * kStack + image, 230.0)}, kStill, kTick_s);
+  ASSERT_FALSE(book.tracklets().empty());
+  EXPECT_NEAR(book.tracklets()[0].pixel().y(), 200.0, 1.0);
+}
+
+TEST(TrackletBook, SpotAtADimPointContinuesIt) {
+  TrackletBook book(TrackletConfig{}, kView);
+  show(book, 4, 3 * kStack + 1);
+  book.advance({clear_spot(101.0 + 3 * kStack, 200.5)}, kStill, kTick_s);
+  ASSERT_EQ(book.tracklets().size(), 1U);
+  EXPECT_TRUE(book.tracklets()[0].seen());
+}
+
 }  // namespace
 }  // namespace ols::detector

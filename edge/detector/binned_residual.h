@@ -1,0 +1,28 @@
+// A matched filter for a point of one to three pixels, on half of the image's pixels each way.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace ols::detector {
+
+class BinnedResidual {
+ public:
+  static constexpr int kUnits = 64;  // units per grey level
+  // Standard deviation of the residual in white noise of one grey level [units].
+  static constexpr double kUnitsOfNoise = 20.0;
+
+  // The mean of 4x4 pixels, weighted (1, 3, 3, 1) each way, minus its mean over 9x9 bins. `gray`:
+  // 8-bit, one channel. The result is half as wide and high, in 1/64 of a grey level, CV_16S: bin
+  // (x, y) is about pixel (2x + 0.5, 2y + 0.5).
+  cv::Mat measure(const cv::Mat& gray);
+
+ private:
+  void smooth_row(const cv::Mat& gray, int y);
+
+  std::vector<std::int16_t> columns_;  // of one row of bins, with a border of one pixel
+  cv::Mat smooth_, mean_;
+};
+
+}  // namespace ols::detector

@@ -1,0 +1,51 @@
+// Shift and stack: sums eight images along each of 289 velocities.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <utility>
+#include <vector>
+
+namespace ols::detector {
+
+// Works on one tile, with a margin for what moves in from outside. The mean over eight images is
+// made of means of two, and these of means over two and four images, so that velocities share
+// their parts.
+class VelocityStack {
+ public:
+  static constexpr int kImages = 8;
+  static constexpr int kWidth = 64, kHeight = 32;  // of the tile [bins]
+  static constexpr int kMargin = 16;               // on each side [bins]
+  static constexpr int kStride = kWidth + 2 * kMargin, kRows = kHeight + 2 * kMargin;
+  static constexpr int kFastest = 2;           // [bins per image] on each axis
+  static constexpr int kSteps = 4 * kFastest;  // velocities: -kSteps...kSteps, in 1/4 bin per image
+  static constexpr std::uint8_t kZero = 128;   // of the values
+
+  using Values = std::array<std::uint8_t, static_cast<std::size_t>(kStride* kRows)>;
+  using Tile = std::array<std::uint8_t, static_cast<std::size_t>(kWidth* kHeight)>;
+
+  VelocityStack();
+  // Values of an image with kZero for nothing; 0 is the newest. Row by row, with the margins.
+  Values& image(std::size_t age) { return images_.at(age); }
+  void run();
+  // The highest and the lowest mean over all velocities, for each place in the newest image.
+  const Tile& highest() const { return highest_; }
+  const Tile& lowest() const { return lowest_; }
+  // The mean at a place of the newest image for one velocity in steps.
+  int mean(const cv::Point& at, const cv::Point& steps) const;
+
+ private:
+  const std::uint8_t* pair(int number, const cv::Point& shift) const;
+  const std::uint8_t* four(int number, const cv::Point& shift) const;
+  void sum_pairs();
+  void sum_fours();
+  void sum_eights();
+
+  std::array<Values, kImages> images_;
+  std::vector<std::uint8_t> pairs_, fours_;  // planes, like the images
+  Tile highest_{}, lowest_{};
+};
+
+}  // namespace ols::detector
