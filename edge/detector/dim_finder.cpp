@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 
 #include "edge/tracker/particle.h"
@@ -54,12 +55,42 @@ cv::Point corner_of(std::size_t tile, const cv::Size& bins) {
           tiles.height == 1 ? 0 : row * (bins.height - Stack::kHeight) / (tiles.height - 1)};
 }
 
+// The centroid of the highest part of a function of the place, within three pixels of zero.
+std::optional<Eigen::Vector2d> offset_of_peak(
+    const std::function<double(const Eigen::Vector2d&)>& height_at) {
+  constexpr int kReach = 4, kPart = 2;  // steps: searched, and of the peak
+  static constexpr double kSearchStep_px = 0.75;
+  constexpr double kFoot = 0.6;  // of the peak's height
+  cv::Mat_<double> heights(2 * kReach + 1, 2 * kReach + 1);
+  const auto offset = [](int x, int y) -> Eigen::Vector2d {
+    return kSearchStep_px * Eigen::Vector2d(x - kReach, y - kReach);
+  };
+  for (int y = 0; y < heights.rows; ++y) {
+    for (int x = 0; x < heights.cols; ++x) heights(y, x) = height_at(offset(x, y));
+  }
+  double highest = 0.0;
+  cv::Point peak;
+  cv::minMaxLoc(heights, nullptr, &highest, nullptr, &peak);
+  if (highest <= 0.0) return std::nullopt;
+  double weights = 0.0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int y = std::max(0, peak.y - kPart); y <= std::min(2 * kReach, peak.y + kPart); ++y) {
+    for (int x = std::max(0, peak.x - kPart); x <= std::min(2 * kReach, peak.x + kPart); ++x) {
+      const double weight = std::max(0.0, heights(y, x) - kFoot * highest);
+      weights += weight;
+      sum += weight * offset(x, y);
+    }
+  }
+  return sum / weights;
+}
+
 }  // namespace
 
 void DimFinder::clear() {
   past_.clear();
   times_s_.clear();
   followed_.clear();
+  uneven_ = 0;
 }
 
 bool DimFinder::is_inside(const Eigen::Vector2d& pixel) const {
@@ -103,44 +134,20 @@ Detection DimFinder::detection(const Point& point) const {
 
 // Looks for a followed point in the newest images, near where it should be in the middle of them.
 bool DimFinder::measure(Point& point) const {
-  constexpr int kReach = 4, kPart = 2;  // steps: searched, and of the peak
-  constexpr double kSearchStep_px = 0.75;
-  constexpr double kFoot = 0.6;             // of the peak, for its centroid
   constexpr double kGain = 0.8 / kStacked;  // of the velocity, by the deviation
   const LineSum line(past_, point.pixel);
   const double sign = point.brighter ? 1.0 : -1.0;
-  std::array<std::array<double, 2 * kReach + 1>, 2 * kReach + 1> sums{};
-  double highest = 0.0;
-  cv::Point peak(kReach, kReach);
-  for (int y = 0; y <= 2 * kReach; ++y) {
-    for (int x = 0; x <= 2 * kReach; ++x) {
-      const Eigen::Vector2d off = kSearchStep_px * Eigen::Vector2d(x - kReach, y - kReach);
-      double& sum = sums.at(static_cast<std::size_t>(y)).at(static_cast<std::size_t>(x));
-      sum = sign * line.along(point.pixel + off, point.velocity_px, kStacked);
-      if (sum <= highest) continue;
-      highest = sum;
-      peak = {x, y};
-    }
-  }
-  double weights = 0.0;
-  Eigen::Vector2d off = Eigen::Vector2d::Zero();
-  for (int y = std::max(0, peak.y - kPart); y <= std::min(2 * kReach, peak.y + kPart); ++y) {
-    for (int x = std::max(0, peak.x - kPart); x <= std::min(2 * kReach, peak.x + kPart); ++x) {
-      const double sum = sums.at(static_cast<std::size_t>(y)).at(static_cast<std::size_t>(x));
-      const double weight = std::max(0.0, sum - kFoot * highest);
-      weights += weight;
-      off += weight * kSearchStep_px * Eigen::Vector2d(x - kReach, y - kReach);
-    }
-  }
-  if (weights <= 0.0) return false;
-  off /= weights;
+  const auto off = offset_of_peak([&](const Eigen::Vector2d& place) {
+    return sign * line.along(point.pixel + place, point.velocity_px, kStacked);
+  });
+  if (!off) return false;
   const double sum =
-      sign * line.along_without_scene(point.pixel + off, point.velocity_px, kStacked);
+      sign * line.along_without_scene(point.pixel + *off, point.velocity_px, kStacked);
   if (sum < config_.next_sd) return false;
   point.signal_to_noise = sum;
   // `off` is the deviation in the middle of the images; the velocity's part grows until the newest.
-  point.velocity_px += kGain * off;
-  point.pixel += off + kToMiddle * kGain * off;
+  point.velocity_px += kGain * *off;
+  point.pixel += *off + kToMiddle * kGain * *off;
   return point.velocity_px.norm() >= config_.least_px;
 }
 
@@ -211,7 +218,9 @@ void DimFinder::stack_next_tile() {
   const cv::Size bins = past_.residual(0).size();
   const std::size_t tile = next_tile_++ % static_cast<std::size_t>(tiles_of(bins).area());
   const cv::Point corner = corner_of(tile, bins);
+  ++uneven_;
   if (!tile_.prepare(past_, corner, stack_)) return;
+  uneven_ = 0;
   stack_.run();
   take_peaks(corner);
 }
@@ -283,11 +292,20 @@ void DimFinder::search(std::vector<Detection>& found) {
 std::vector<Detection> DimFinder::find(const cv::Mat& gray, double time_s,
                                        const std::optional<Eigen::Matrix3d>& motion) {
   std::vector<Detection> found;
+  if (rest_ > 0) {
+    --rest_;
+    return found;
+  }
   remember(gray, time_s, motion);
   const cv::Size bins = past_.residual(0).size();
   if (!past_.complete() || bins.width < Stack::kWidth || bins.height < Stack::kHeight) return found;
   follow(found);
   search(found);
+  if (followed_.empty() && uneven_ >= static_cast<std::size_t>(tiles_of(bins).area())) {
+    constexpr int kRest = 60;
+    clear();
+    rest_ = kRest;
+  }
   return found;
 }
 

@@ -28,7 +28,8 @@ struct DimConfig {
 };
 
 // A point that the stack shows is followed on its straight path and measured once in eight images,
-// from these images alone: so each detection has new noise.
+// from these images alone: so each detection has new noise. If no part of the picture is even, it
+// rests for a while, because the ground seldom becomes sky.
 class DimFinder {
  public:
   explicit DimFinder(const DimConfig& config) : config_(config) {}
@@ -72,6 +73,8 @@ class DimFinder {
   std::vector<Point> peaks_;  // of the tile that is being searched
   std::vector<Point> followed_;
   std::size_t next_tile_ = 0;
+  std::size_t uneven_ = 0;  // tiles since the last even one
+  int rest_ = 0;            // images to leave out
   long next_id_ = 1;
 };
 

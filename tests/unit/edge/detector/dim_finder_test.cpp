@@ -189,6 +189,26 @@ TEST(DimFinder, MovingTextureIsNotSearched) {
   EXPECT_EQ(found, 0U);
 }
 
+TEST(DimFinder, SearchesTheSkyThatFollowsTheGround) {
+  constexpr int kGround = 40;
+  cv::Mat texture(kSize, CV_32F);
+  cv::RNG(9).fill(texture, cv::RNG::NORMAL, 0.0, 20.0);
+  Look look(2);
+  const Mover mover = movers()[0];
+  std::size_t found = 0;
+  for (int i = 0; i < kGround + 120; ++i) {
+    const Scene scene = [&](int image, cv::Mat& picture) {
+      if (image < kGround) {
+        cv::add(picture, texture, picture);
+      } else {
+        draw(picture, mover.at(image - kGround), 5.0);
+      }
+    };
+    found += look.at(i, scene, {0.0, 0.0}).size();
+  }
+  EXPECT_GE(found, 2U);
+}
+
 TEST(DimFinder, AFlashInOneImageIsNoPoint) {
   const auto found = count(
       [](int image, cv::Mat& picture) {
