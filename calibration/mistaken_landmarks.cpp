@@ -8,6 +8,7 @@
 #include "calibration/snooping.h"
 #include "calibration/stationing.h"
 #include "geometry/angles.h"
+#include "geometry/median.h"
 
 namespace ols::calibration {
 namespace {
@@ -103,10 +104,8 @@ class LandmarkSearch {
       std::ranges::transform(rest, off.begin(), [&](std::size_t other) {
         return std::abs(wrap_pi(headings_[other] - headings_[l]));
       });
-      const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-      std::ranges::nth_element(off, middle);
-      if (*middle < least) {
-        least = *middle;
+      if (const double middle = median(off); middle < least) {
+        least = middle;
         best = l;
       }
     }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/median.h"
+
 namespace ols::calibration {
 namespace {
 
@@ -34,9 +36,7 @@ double scatter(const std::vector<MountReading>& readings, const Vector4d& x, boo
     if (r.moves == moves) sizes.push_back(std::abs(residual(r, x)));
   }
   if (sizes.empty()) return kLeastSd_rad;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
-  return std::max(1.4826 * *middle, kLeastSd_rad);
+  return std::max(1.4826 * median(std::move(sizes)), kLeastSd_rad);
 }
 
 // `robust`: by Huber's weights for the present solution.

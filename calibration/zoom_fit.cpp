@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/median.h"
+
 namespace ols::calibration {
 namespace {
 
@@ -112,11 +114,6 @@ class Fit {
       lengths.push_back(r ? r->norm() : 1e9);
     }
     return lengths;
-  }
-  static double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
   }
   // Mismatches, and what moves: by the median of what is left, which they do not reach.
   void leave_out(const std::vector<double>& lengths, double middle) {

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
+
+#include "geometry/median.h"
 
 namespace ols::calibration {
 
@@ -20,9 +23,7 @@ double noise_of(const cv::Mat& gray) {
     for (int x = 1; x + 1 < response.cols; x += kEvery) sizes.push_back(std::abs(row[x]));
   }
   if (sizes.empty()) return 0.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return kSigmaOfMedian * *middle / kOfNoise;
+  return kSigmaOfMedian * median(std::move(sizes)) / kOfNoise;
 }
 
 Gradients gradients_of(const cv::Mat& gray, double smoothing_px) {

@@ -7,6 +7,7 @@
 
 #include "calibration/pictures/gradients.h"
 #include "calibration/pictures/line_fit.h"
+#include "geometry/median.h"
 
 namespace ols::calibration {
 namespace {
@@ -152,9 +153,7 @@ void keep_parallel(std::vector<LevelEdge>& edges) {
   std::vector<double> slopes;
   slopes.reserve(edges.size());
   for (const LevelEdge& edge : edges) slopes.push_back(slope_of(edge));
-  const auto half = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-  std::nth_element(slopes.begin(), half, slopes.end());
-  const double common = *half;
+  const double common = median(std::move(slopes));
   std::erase_if(edges, [common](const LevelEdge& edge) {
     return std::abs(slope_of(edge) - common) > kParallel;
   });

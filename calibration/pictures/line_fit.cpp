@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/median.h"
+
 namespace ols::calibration {
 
 std::optional<FittedLine> fit_line(const LinePoints& points, const FittedLine& start) {
@@ -16,10 +18,7 @@ std::optional<FittedLine> fit_line(const LinePoints& points, const FittedLine& s
       off.push_back(std::abs(points.y[i] - line.offset - line.slope * (points.x[i] - line.middle)));
     }
     if (off.size() < kLeastColumns) return std::nullopt;
-    std::vector<double> sorted = off;
-    const auto half = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), half, sorted.end());
-    const double limit = kFar * std::max(kLeast_px, kSigmaOfMedian * *half);
+    const double limit = kFar * std::max(kLeast_px, kSigmaOfMedian * median(off));
     double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, syy = 0.0;
     for (std::size_t i = 0; i < off.size(); ++i) {
       if (off[i] > limit) continue;

@@ -7,6 +7,7 @@
 
 #include "calibration/pictures/scene_tracks.h"
 #include "calibration/pictures/view_registration.h"
+#include "geometry/median.h"
 
 namespace ols::calibration {
 namespace {
@@ -175,8 +176,7 @@ void drop_strays(std::vector<Pair>& pairs) {
   if (pairs.empty()) return;
   std::vector<double> sizes;
   for (const Pair& pair : pairs) sizes.push_back(pair.residual_px.norm());
-  std::ranges::nth_element(sizes, sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2));
-  const double most_px = std::max(4.0 * sizes[sizes.size() / 2], 0.1);
+  const double most_px = std::max(4.0 * median(std::move(sizes)), 0.1);
   std::erase_if(pairs, [most_px](const Pair& pair) { return pair.residual_px.norm() > most_px; });
 }
 

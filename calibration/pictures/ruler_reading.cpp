@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "calibration/pictures/gradients.h"
+#include "geometry/median.h"
 
 namespace ols::calibration {
 namespace {
@@ -82,9 +84,7 @@ std::vector<Edge> edges_of(const std::vector<double>& profile, double bar_px, do
 double median_gap(const std::vector<Edge>& edges) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < edges.size(); ++i) gaps.push_back(edges[i].y - edges[i - 1].y);
-  const auto half = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), half, gaps.end());
-  return *half;
+  return median(std::move(gaps));
 }
 
 // A dark gap of three bars between two neighbours: upper edge's index. Two of them: none.

@@ -6,27 +6,14 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "geometry/median.h"
+
 namespace ols::calibration {
 namespace {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-Vector2d median_of(const std::vector<Vector2d>& all) {
-  std::vector<double> x, y;
-  for (const Vector2d& one : all) {
-    x.push_back(one.x());
-    y.push_back(one.y());
-  }
-  return {median(std::move(x)), median(std::move(y))};
-}
 
 const SceneSighting* sighting_in(const std::vector<SceneSighting>& seen, std::size_t picture) {
   const auto found = std::ranges::find(seen, picture, &SceneSighting::picture);
@@ -168,7 +155,7 @@ void SceneTracks::keep_agreeing(std::vector<Candidate>& all, std::size_t from, s
                      Vector2d(0.5 * geometry_.camera.width_px, 0.5 * geometry_.camera.height_px));
     offsets.push_back(one.match.centre_px - one.predicted);
   }
-  const Vector2d middle = median_of(offsets);
+  const Vector2d middle = median(offsets);
   std::vector<bool> agrees(all.size());
   const auto select = [&](const Affine& motion, double within_px) {
     for (std::size_t i = 0; i < all.size(); ++i) {

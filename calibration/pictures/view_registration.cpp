@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibration/pictures/gradients.h"
+#include "geometry/median.h"
 
 namespace ols::calibration {
 namespace {
@@ -126,21 +127,6 @@ std::optional<Vector2d> tile_shift(const std::vector<cv::Mat>& scores, int row, 
   if (std::max(std::abs(x), std::abs(y)) == kReach_px || at(x, y) <= 0.0F) return std::nullopt;
   return Vector2d(x + vertex(at(x - 1, y), at(x, y), at(x + 1, y)),
                   y + vertex(at(x, y - 1), at(x, y), at(x, y + 1)));
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-Vector2d median(const std::vector<Vector2d>& shifts) {
-  std::vector<double> x, y;
-  for (const Vector2d& one : shifts) {
-    x.push_back(one.x());
-    y.push_back(one.y());
-  }
-  return {median(std::move(x)), median(std::move(y))};
 }
 
 struct Tiles {

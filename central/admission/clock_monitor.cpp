@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "central/measurement/time_span.h"
 #include "conditions/alarms.h"
+#include "geometry/median.h"
 
 namespace ols::fusion {
 namespace {
@@ -28,10 +30,7 @@ bool ClockMonitor::others_are_better(const std::string& station, const MessageTi
     const auto found = stations_.find(other);
     if (other != station && found != stations_.end()) errors_s.push_back(found->second.error_s);
   }
-  if (errors_s.empty()) return false;
-  const auto middle = errors_s.begin() + static_cast<std::ptrdiff_t>(errors_s.size() / 2);
-  std::ranges::nth_element(errors_s, middle);
-  return *middle <= config_.error_limit_s;
+  return !errors_s.empty() && median(std::move(errors_s)) <= config_.error_limit_s;
 }
 
 Alarm ClockMonitor::judge(const std::string& name, const Station& station,
