@@ -1,22 +1,26 @@
 // ols-bench-onvif: what drives an ONVIF camera against the simulated one, in simulated time, by
-// their SOAP texts: how far it lags behind a target, whether the errors of its angles are as
-// stated, and when it is at rest after an emergency, a cut link, a station's end.
+// their SOAP texts: how far it lags behind a target, the errors of its angles and whether they are
+// as stated (by its reports alone, and with its pictures), and when it is at rest after an
+// emergency, a cut link, a station's end.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "dev/bench/onvif_pictures.h"
 #include "dev/bench/program.h"
-#include "edge/mount/angle_history.h"
+#include "edge/frames/pointing_model.h"
 #include "edge/mount/onvif/onvif_kind.h"
 #include "edge/mount/onvif/soap_answer.h"
 #include "edge/mount/onvif/soap_request.h"
+#include "edge/tracker/ego_motion.h"
 #include "geometry/angles.h"
 #include "sim/onvif/device.h"
 #include "sim/onvif/ptz_scale.h"
@@ -24,6 +28,7 @@
 namespace {
 
 using namespace ols;
+using bench::Scene;
 using mount::Act;
 
 constexpr double kTurn_s = 0.005, kTimeout_s = 2.0, kReconnect_s = 0.2;
@@ -55,6 +60,7 @@ class Loop {
         device_(device, seed, 0.0),
         drive_(drive),
         history_(history_config(drive)),
+        pointing_(station_config(drive)),
         random_(seed) {
     connect();
   }
@@ -73,7 +79,8 @@ class Loop {
     const PanTilt then = truth(now_s_ - kTurn_s), now = truth(now_s_);
     return std::abs(now.pan_rad - then.pan_rad) + std::abs(now.tilt_rad - then.tilt_rad) > 0.0;
   }
-  const mount::AngleHistory& history() const { return history_; }
+  const mount::AngleHistory& history() const { return history_; }  // of the reports alone
+  station::PointingModel& pointing() { return pointing_; }
   mount::Drive& drive() { return drive_; }
   void set_faults(const sim::PtzFaults& faults) {
     device_.set_faults(faults, std::max(now_s_, device_s_));
@@ -87,6 +94,12 @@ class Loop {
     onvif::OnvifKind kind;
     kind.onvif.drive = drive;
     return kind.traits().angles;
+  }
+  static station::StationConfig station_config(const mount::DriveConfig& drive) {
+    station::StationConfig config;
+    config.geometry = bench::ptz_geometry();
+    config.angles = history_config(drive);
+    return config;
   }
   double way_s() { return std::uniform_real_distribution(wire.least_s, wire.most_s)(random_); }
   std::string ask(const onvif::Request& request) {
@@ -140,7 +153,10 @@ class Loop {
       again_s_ = now_s_ + kReconnect_s;
     } else if (order.act == Act::kStatus) {
       drive_.take(onvif::status(answer_), sent_s_, again_s_);
-      for (const auto& sample : drive_.take_samples()) history_.add(sample);
+      for (const auto& sample : drive_.take_samples()) {
+        history_.add(sample);
+        pointing_.add(sample);
+      }
     } else {
       drive_.done(order, now_s_);
     }
@@ -151,6 +167,7 @@ class Loop {
   sim::OnvifDevice device_;
   mount::Drive drive_;
   mount::AngleHistory history_;
+  station::PointingModel pointing_;
   std::mt19937_64 random_;
   double now_s_ = 1.0, device_s_ = 1.0;  // the latter: of the last request's arrival
   double sent_s_ = 0.0, again_s_ = 0.0;
@@ -179,15 +196,74 @@ Loop::GoalAt swinging(double rate_rad_s, double from_s) {
   };
 }
 
+// The camera's pictures, and the motion that the station measures in them.
+class Watcher {
+ public:
+  Watcher(Scene scene, std::uint64_t seed)
+      : pictures_(scene, seed),
+        ego_motion_(tracker::TrackerConfig{}, tracker::HomographyFit::kLeastSquares) {}
+
+  void look(Loop& loop, double exposed_s) {
+    camera::Frame frame;
+    frame.gray = pictures_.draw(loop.truth(exposed_s), exposed_s);
+    frame.mid_exposure_s = exposed_s;
+    const auto reduced = tracker::reduce_frame(frame.gray, frame.gray.cols);
+    if (before_s_ == 0.0) {
+      ego_motion_.start(reduced);
+    } else {
+      const auto predicted = loop.pointing().homography(before_s_, exposed_s);
+      const auto seen = ego_motion_.step(reduced, {}, predicted).motion;
+      if (seen) loop.pointing().add(*seen, before_s_, frame);
+    }
+    before_s_ = exposed_s;
+  }
+
+ private:
+  bench::OnvifPictures pictures_;
+  tracker::EgoMotionEstimator ego_motion_;
+  double before_s_ = 0.0;
+};
+
 struct Case {
   const char* name;
   sim::PtzFaults faults;
   double delay_s = 0.0, delay_sd_s = 0.005;  // as configured
   bool swings = false;
+  Scene scene = Scene::kLandscape;
+};
+
+// Sums of squares over frames.
+struct Errors {
+  double error2 = 0.0, told2 = 0.0;
+  int known = 0;
+
+  void add(double pan_rad, double variance_rad2, double truth_rad) {
+    error2 += (pan_rad - truth_rad) * (pan_rad - truth_rad);
+    told2 += variance_rad2;
+    ++known;
+  }
+  void add(const Errors& more) {
+    error2 += more.error2;
+    told2 += more.told2;
+    known += more.known;
+  }
+  std::string words(int frames) const {
+    return fmt::format("{:.3f} | {:.2f} | {:.0f} %", degrees(std::sqrt(error2 / known)),
+                       std::sqrt(told2 / error2), 100.0 * known / frames);
+  }
 };
 
 struct Following {
-  double lag_deg = 0.0, error_deg = 0.0, told_deg = 0.0, share = 0.0;
+  double lag2 = 0.0;  // [rad^2]
+  int frames = 0;
+  Errors reported, seen;
+
+  void add(const Following& more) {
+    lag2 += more.lag2;
+    frames += more.frames;
+    reported.add(more.reported);
+    seen.add(more.seen);
+  }
 };
 
 // Frames come 25 times a second, a tenth of a second late, and wait for the next position as the
@@ -201,28 +277,30 @@ Following follow(const Case& c, double rate_deg_s, std::uint64_t seed) {
   config.positions.sd_rad = std::max(radians(0.01), radians(c.faults.step_deg) / std::sqrt(12.0));
   Loop loop(device, config, seed);
   loop.set_faults(c.faults);
-  constexpr double kSettle_s = 15.0, kLast_s = 20.0, kFrame_s = 0.04, kLater_s = 0.1 + 0.03;
-  const auto goal_at =
-      (c.swings ? swinging : passing)(radians(rate_deg_s), loop.now_s() + kSettle_s - 5.0);
-  loop.run(kSettle_s, goal_at);
-  double lag2 = 0.0, error2 = 0.0, told2 = 0.0, frame_s = loop.now_s();
-  int frames = 0, known = 0;
-  loop.run(kLast_s, goal_at, [&] {
-    if (loop.now_s() < frame_s + kLater_s) return;
-    const PanTilt truth = loop.truth(frame_s);
-    const double behind_rad = goal_at(frame_s)->angles.pan_rad - truth.pan_rad;
-    lag2 += behind_rad * behind_rad;
-    ++frames;
+  Watcher watcher(c.scene, seed);
+  constexpr double kSettle_s = 15.0, kLast_s = 20.0, kFrame_s = 0.04, kLate_s = 0.1, kWait_s = 0.03;
+  const double from_s = loop.now_s() + kSettle_s;
+  const auto goal_at = (c.swings ? swinging : passing)(radians(rate_deg_s), from_s - 5.0);
+  double arriving_s = loop.now_s(), frame_s = from_s;
+  Following sum;
+  loop.run(kSettle_s + kLast_s, goal_at, [&] {
+    if (loop.now_s() >= arriving_s + kLate_s) {
+      watcher.look(loop, arriving_s);
+      arriving_s += kFrame_s;
+    }
+    if (loop.now_s() < frame_s + kLate_s + kWait_s) return;
+    const double truth_rad = loop.truth(frame_s).pan_rad;
+    sum.lag2 += std::pow(goal_at(frame_s)->angles.pan_rad - truth_rad, 2);
+    ++sum.frames;
     if (const auto at = loop.history().at(frame_s)) {
-      const double error_rad = at->angles.pan_rad - truth.pan_rad;
-      error2 += error_rad * error_rad;
-      told2 += at->covariance(0, 0);
-      ++known;
+      sum.reported.add(at->angles.pan_rad, at->covariance(0, 0), truth_rad);
+    }
+    if (const auto at = loop.pointing().angles_at(frame_s)) {
+      sum.seen.add(at->angles.pan_rad, at->covariance(0, 0), truth_rad);
     }
     frame_s += kFrame_s;
   });
-  return {degrees(std::sqrt(lag2 / frames)), degrees(std::sqrt(error2 / known)),
-          degrees(std::sqrt(told2 / known)), static_cast<double>(known) / frames};
+  return sum;
 }
 
 // From `event` until it stands; nullopt: it did not within a quarter of a minute.
@@ -263,32 +341,32 @@ void say_rest(const char* name, const sim::PtzFaults& faults, int seeds,
              never == seeds ? std::string("-") : fmt::format("{:.2f}", worst_s), never, seeds);
 }
 
-double rms(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(values.size()));
-}
-
 void say_following(double rate_deg_s, int seeds) {
+  const sim::PtzFaults late{.late_s = 0.3};
   fmt::print("Following {} deg/s, RMS over 20 s and {} seeds:\n\n", rate_deg_s, seeds);
-  fmt::print("| camera | lag [deg] | error of angles [deg] | told over actual | frames |\n");
-  fmt::print("|---|---|---|---|---|\n");
+  fmt::print(
+      "| | | by positions alone | | | and pictures | | |\n|---|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| camera | lag [deg] | error [deg] | told over actual | frames | error [deg] | told over "
+      "actual | frames |\n");
   for (const Case& c :
-       {Case{"exact", {}}, Case{"positions 0.3 s late", {.late_s = 0.3}, 0.3},
+       {Case{"exact", {}}, Case{"positions 0.3 s late", late, 0.3},
         Case{"in steps of 0.1 deg", {.step_deg = 0.1}},
         Case{"in steps of 0.5 deg, 0.2 s late", {.late_s = 0.2, .step_deg = 0.5}, 0.2},
         Case{"exact; the target turns back", {}, 0.0, 0.005, true},
-        Case{"0.3 s late; the target turns back", {.late_s = 0.3}, 0.3, 0.005, true}}) {
-    std::vector<double> lag, error, told, share;
+        Case{"0.3 s late; the target turns back", late, 0.3, 0.005, true},
+        Case{"the same; delay known to 50 ms", late, 0.3, 0.05, true},
+        Case{"0.3 s late; blank sky", late, 0.3, 0.005, false, Scene::kBlank},
+        Case{"0.3 s late, turns back; the scene drifts", late, 0.3, 0.005, true, Scene::kDrifts},
+        Case{"0.3 s late; an object covers the picture", late, 0.3, 0.005, false,
+             Scene::kPassing}}) {
+    Following sum;
     for (int seed = 1; seed <= seeds; ++seed) {
-      const Following f = follow(c, rate_deg_s, static_cast<std::uint64_t>(seed));
-      lag.push_back(f.lag_deg);
-      error.push_back(f.error_deg);
-      told.push_back(f.told_deg);
-      share.push_back(f.share);
+      sum.add(follow(c, rate_deg_s, static_cast<std::uint64_t>(seed)));
     }
-    fmt::print("| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} % |\n", c.name, rms(lag), rms(error),
-               rms(told) / rms(error), 100.0 * rms(share));
+    fmt::print("| {} | {:.3f} | {} | {} |\n", c.name, degrees(std::sqrt(sum.lag2 / sum.frames)),
+               sum.reported.words(sum.frames), sum.seen.words(sum.frames));
+    std::fflush(stdout);
   }
 }
 

@@ -72,15 +72,13 @@ Detector::Detector(const DetectorConfig& config, const cv::Size& image)
       dim_(config.dim),
       book_(config.tracklets, image) {}
 
-std::optional<Eigen::Matrix3d> Detector::measure_motion(
+std::optional<tracker::ImageMotion> Detector::measure_motion(
     const tracker::ReducedFrame& frame, const std::optional<Eigen::Matrix3d>& predicted) {
   if (!time_s_) {
     ego_motion_.start(frame);
     return std::nullopt;
   }
-  const auto estimate = ego_motion_.step(frame, clearest_box(book_.tracklets()), predicted);
-  if (estimate.homography) return estimate.homography;
-  return predicted;
+  return ego_motion_.step(frame, clearest_box(book_.tracklets()), predicted).motion;
 }
 
 Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
@@ -88,13 +86,15 @@ Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
   const tracker::ReducedFrame frame = tracker::reduce_frame(gray, kMotionWidth_px);
   tracker::ReducedFrame small = tracker::reduce_frame(frame.image, kMoverWidth_px);
   small.reduction *= frame.reduction;
-  const std::optional<Eigen::Matrix3d> motion = measure_motion(frame, predicted);
+  Result result;
+  result.motion = measure_motion(frame, predicted);
+  std::optional<Eigen::Matrix3d> motion = time_s_ ? predicted : std::nullopt;
+  if (result.motion) motion = result.motion->homography;
   const double interval_s = time_s_ ? time_s - *time_s_ : 0.0;
   time_s_ = time_s;
   std::optional<Eigen::Matrix3d> reduced_motion;
   if (motion) reduced_motion = small.to_full().inverse() * *motion * small.to_full();
   const auto movers = movers_.find(small, time_s, reduced_motion);
-  Result result;
   result.suspended = !movers.has_value();
   result.detections = spots_.find(gray);
   if (result.suspended) {

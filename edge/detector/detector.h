@@ -29,6 +29,7 @@ class Detector {
   struct Result {
     std::vector<Detection> detections;  // of this image alone
     bool suspended = false;  // everything changed at once, so movers are not searched for
+    std::optional<tracker::ImageMotion> motion;  // from the previous image; nullopt without texture
   };
   // `gray`: 8-bit, one channel, always of the same size. `predicted`: the motion according to the
   // mount. It maps the previous image's pixels to this image's, and is refined with the images.
@@ -39,8 +40,8 @@ class Detector {
   long suspended_images() const { return suspended_images_; }
 
  private:
-  std::optional<Eigen::Matrix3d> measure_motion(const tracker::ReducedFrame& frame,
-                                                const std::optional<Eigen::Matrix3d>& predicted);
+  std::optional<tracker::ImageMotion> measure_motion(
+      const tracker::ReducedFrame& frame, const std::optional<Eigen::Matrix3d>& predicted);
 
   tracker::EgoMotionEstimator ego_motion_;
   SpotFinder spots_;

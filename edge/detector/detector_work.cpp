@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace ols::detector {
 
@@ -9,8 +10,10 @@ Found PictureDetector::look(const Picture& picture) {
   if (!detector_) detector_.emplace(config_, picture.gray.size());
   Found found;
   found.mid_exposure_s = picture.mid_exposure_s;
-  found.suspended =
-      detector_->advance(picture.gray, picture.mid_exposure_s, picture.motion).suspended;
+  const auto result = detector_->advance(picture.gray, picture.mid_exposure_s, picture.motion);
+  found.suspended = result.suspended;
+  found.motion = result.motion;
+  found.from_s = std::exchange(looked_s_, picture.mid_exposure_s);
   std::ranges::copy_if(detector_->tracklets(), std::back_inserter(found.confirmed),
                        &Tracklet::confirmed);
   for (Tracklet& tracklet : found.confirmed) tracklet.measure_outline(picture.gray);

@@ -22,6 +22,10 @@ struct Found {
   double mid_exposure_s = 0.0;
   std::vector<Tracklet> confirmed;  // includes objects that this picture does not show
   bool suspended = false;           // everything changed at once, so movers were not searched for
+  // Measured since the previous picture that was looked at, exposed at from_s; nullopt without
+  // texture.
+  std::optional<tracker::ImageMotion> motion = {};
+  double from_s = 0.0;
 };
 
 // Looks at one picture after another. All must have the size of the first.
@@ -33,6 +37,7 @@ class PictureDetector {
  private:
   DetectorConfig config_;
   std::optional<Detector> detector_;
+  double looked_s_ = 0.0;  // mid-exposure of the last picture
 };
 
 }  // namespace ols::detector

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "edge/frames/image_turn.h"
 #include "geometry/wgs84.h"
 
 namespace ols::station {
@@ -25,7 +26,7 @@ PointingModel::PointingModel(const StationConfig& config)
       pose_(configured_pose(config.geometry)),
       revision_pose_(pose_),
       limits_(config.limits),
-      history_(config.angles),
+      angles_(config.angles),
       zoom_(config.zoom) {
   if (config.calibration) unit_.emplace(*config.calibration);
 }
@@ -36,7 +37,26 @@ void PointingModel::set_limits(const mount::Limits& limits) {
 }
 
 void PointingModel::add(const mount::AngleSample& sample) {
-  if (history_.add(sample) && unit_) unit_->add(sample);
+  if (angles_.add(sample) && unit_) unit_->add(sample);
+}
+
+// The turn of a calibrated unit is that of an ideal one: within a turn between two pictures, its
+// errors hardly change.
+void PointingModel::add(const tracker::ImageMotion& motion, double from_s,
+                        const camera::Frame& frame) {
+  const double to_s = frame.mid_exposure_s;
+  const auto zoom = zoom_at(from_s);
+  const bool same_zoom = zoom && zoom_rests(from_s) == true && zoom_rests(to_s) == true;
+  const auto unit = angles_at(from_s);
+  if (!same_zoom || !unit) return;
+  const auto seen = image_turn(geometry_.chain, zoom->camera, unit->angles, motion);
+  if (!seen) return;
+  angles_.add({.from_s = from_s,
+               .to_s = to_s,
+               .row_s = camera::row_time_s(frame, motion.middle_px.y()) - to_s,
+               .stamp_sd_s = frame.stamp_sd_s,
+               .turn = seen->turn,
+               .sd = seen->sd});
 }
 
 void PointingModel::add(const lens::ZoomSample& sample) {
@@ -51,7 +71,7 @@ std::optional<ZoomPoint> PointingModel::zoom_at(double time_s) const {
 }
 
 void PointingModel::forget_angles() {
-  history_.clear();
+  angles_.clear();
   if (unit_) unit_->forget_angles();
 }
 
@@ -87,19 +107,22 @@ void PointingModel::set_pose(const sensors::StationPose& pose) {
   geometry_.sd.tilt_rad = pose.tilt_sd_rad;
 }
 
-std::optional<UnitAngles> PointingModel::angles_at(double time_s) const {
-  const auto at = history_.at(time_s);
-  if (!at) return std::nullopt;
-  UnitAngles unit{at->angles, at->angles, at->rate, at->covariance, at->interpolated, {}, time_s};
+UnitAngles PointingModel::unit_angles(const mount::AngleAt& at, double time_s) const {
+  UnitAngles unit{at.angles, at.angles, at.rate, at.covariance, at.interpolated, {}, time_s};
   if (calibrated()) {
-    unit.reading = unit_->reading(at->angles, at->rate, time_s);
+    unit.reading = unit_->reading(at.angles, at.rate, time_s);
     unit.angles = unit_->corrected(unit.reading);
   }
   return unit;
 }
 
+std::optional<UnitAngles> PointingModel::angles_at(double time_s, double stamp_sd_s) const {
+  const auto at = angles_.at(time_s, stamp_sd_s);
+  return at ? std::optional(unit_angles(*at, time_s)) : std::nullopt;
+}
+
 PanTilt PointingModel::angles_now() const {
-  const auto newest = history_.newest();
+  const auto newest = newest_angles();
   if (!newest) return {};
   if (!calibrated()) return newest->angles;
   return unit_->corrected(unit_->reading(newest->angles, {}, newest->time_s));
@@ -146,17 +169,16 @@ std::optional<PanTilt> PointingModel::centring(const Eigen::Vector2d& pixel, dou
 }
 
 std::optional<Eigen::Matrix3d> PointingModel::homography(double from_s, double to_s) const {
-  const auto from = angles_at(from_s);
-  const auto to = angles_at(to_s);
-  if (!from || !to) return std::nullopt;
-  if (!zoom_) return rotation_homography(geometry_, from->angles, to->angles);
+  const auto at_from = angles_.reported().at(from_s), at_to = angles_.reported().at(to_s);
+  if (!at_from || !at_to) return std::nullopt;
+  const PanTilt from = unit_angles(*at_from, from_s).angles, to = unit_angles(*at_to, to_s).angles;
+  if (!zoom_) return rotation_homography(geometry_, from, to);
   const auto zoom_from = zoom_at(from_s), zoom_to = zoom_at(to_s);
   if (!zoom_from || !zoom_to) return std::nullopt;
   StationGeometry wide = geometry_;
   wide.camera = zoom_from->camera;
   const Eigen::Matrix3d K_from = camera_matrix(zoom_from->camera);
-  return camera_matrix(zoom_to->camera) * K_from.inverse() *
-         rotation_homography(wide, from->angles, to->angles);
+  return camera_matrix(zoom_to->camera) * K_from.inverse() * rotation_homography(wide, from, to);
 }
 
 std::optional<Eigen::Vector2d> PointingModel::pixel_of(const PanTilt& angles,
@@ -177,7 +199,7 @@ bool PointingModel::in_picture(const Eigen::Vector2d& pixel) const {
 }
 
 std::optional<PanTilt> PointingModel::reachable(const PanTilt& angles) const {
-  const auto newest = history_.newest();
+  const auto newest = newest_angles();
   return reachable_from(newest ? newest->angles : angles, angles);
 }
 
@@ -187,7 +209,7 @@ std::optional<PanTilt> PointingModel::reachable_from(const PanTilt& here, PanTil
 }
 
 std::optional<PanTilt> PointingModel::aim(const AzimuthElevation& direction) const {
-  const auto newest = history_.newest();
+  const auto newest = newest_angles();
   const auto angles = aim_from(newest ? newest->angles : PanTilt{}, direction);
   return angles ? reachable(*angles) : std::nullopt;
 }

@@ -7,10 +7,12 @@
 #include <optional>
 
 #include "edge/calibration/calibrated_unit.h"
-#include "edge/mount/angle_history.h"
+#include "edge/camera/frame.h"
 #include "edge/mount/limits.h"
+#include "edge/mount/mount_angles.h"
 #include "edge/station/station_config.h"
 #include "edge/station/station_types.h"
+#include "edge/tracker/image_motion.h"
 #include "edge/video/video_frame.h"
 
 namespace ols::station {
@@ -37,6 +39,8 @@ class PointingModel {
   void set_limits(const mount::Limits& limits);
   // Call in order of time.
   void add(const mount::AngleSample& sample);
+  // Takes the motion that a frame shows since an earlier one, exposed at from_s.
+  void add(const tracker::ImageMotion& motion, double from_s, const camera::Frame& frame);
   // Takes a zoom position of a motorised lens. geometry() contains the camera at the newest
   // position.
   void add(const lens::ZoomSample& sample);
@@ -62,12 +66,13 @@ class PointingModel {
   // one.
   std::int64_t pose_revision() const { return pose_revision_; }
 
-  std::optional<UnitAngles> angles_at(double time_s) const;
+  // `stamp_sd_s`: 1-sigma of an instant that is a picture's stamp; the covariance includes it.
+  std::optional<UnitAngles> angles_at(double time_s, double stamp_sd_s = 0.0) const;
   // The angles at the time of the newest sample; 0 before the first sample.
   PanTilt angles_now() const;
-  std::optional<mount::AngleSample> newest_angles() const { return history_.newest(); }
+  std::optional<mount::AngleSample> newest_angles() const { return angles_.reported().newest(); }
   std::optional<PanTilt> reported_angles() const {
-    const auto newest = history_.newest();
+    const auto newest = newest_angles();
     return newest ? std::optional(newest->angles) : std::nullopt;
   }
   // The camera's position and direction at an instant; nullopt if the unit's angles are not known.
@@ -82,7 +87,8 @@ class PointingModel {
   // The reported angles that bring a pixel of this instant to the middle of the picture. Travel
   // limits are ignored.
   std::optional<PanTilt> centring(const Eigen::Vector2d& pixel, double time_s) const;
-  // Maps pixels at one instant to pixels at another, for a scene at infinity.
+  // Maps pixels at one instant to pixels at another, for a scene at infinity, by the unit's reports
+  // alone.
   std::optional<Eigen::Matrix3d> homography(double from_s, double to_s) const;
   // The line of sight of a pixel, computed from the unit's angles and their covariance.
   std::optional<LineOfSight> sight(PixelSight pixel, const UnitAngles& unit) const;
@@ -102,12 +108,14 @@ class PointingModel {
   std::optional<PanTilt> aim_from(const PanTilt& here, const AzimuthElevation& direction) const;
 
  private:
+  UnitAngles unit_angles(const mount::AngleAt& at, double time_s) const;
+
   StationGeometry geometry_;
   sensors::StationPose pose_;
   sensors::StationPose revision_pose_;  // the pose that belongs to pose_revision()
   std::int64_t pose_revision_ = 0;
   mount::Limits limits_;
-  mount::AngleHistory history_;
+  mount::MountAngles angles_;
   std::optional<CalibratedUnit> unit_;
   std::optional<lens::ZoomLens> zoom_;
   lens::ByAxis<std::optional<double>> lens_;  // positions of all axes

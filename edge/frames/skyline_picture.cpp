@@ -31,14 +31,12 @@ std::optional<LineOfSight> outermost(const PointingModel& pointing, const UnitAn
 
 // The 1-sigma that the station states for the directions of this picture: at the left or right
 // edge, where the lens errs most. False if it has no directions.
-bool state_sigmas(const camera::Frame& frame, const PointingModel& pointing, const UnitAngles& unit,
+bool state_sigmas(const PointingModel& pointing, const UnitAngles& unit,
                   skyline::StatedPicture& picture) {
   const CameraIntrinsics& camera = picture.camera.intrinsics;
   PixelSight pixel;
   pixel.pixel.y() = camera.cy_px;
-  const Eigen::Vector2d rate(unit.rate.pan_rad, unit.rate.tilt_rad);
-  pixel.angles_covariance_rad2 =
-      unit.covariance + rate * rate.transpose() * std::pow(frame.stamp_sd_s, 2);
+  pixel.angles_covariance_rad2 = unit.covariance;
   bool any = false;
   for (const double edge_px : {0.0, camera.width_px - 1.0}) {
     const auto line = outermost(pointing, unit, pixel, edge_px, camera.cx_px);
@@ -60,7 +58,7 @@ std::optional<skyline::StatedPicture> skyline_picture(const std::deque<camera::F
   if (pointing.pose().position_source == sensors::PoseSource::kNone) return std::nullopt;
   for (auto at = frames.rbegin(); at != frames.rend(); ++at) {
     const camera::Frame& frame = *at;
-    const auto unit = pointing.angles_at(frame.mid_exposure_s);
+    const auto unit = pointing.angles_at(frame.mid_exposure_s, frame.stamp_sd_s);
     if (!unit || !unit->interpolated) continue;
     const auto zoom_rests = pointing.zoom_rests(frame.mid_exposure_s);
     if (!zoom_rests) continue;
@@ -69,7 +67,7 @@ std::optional<skyline::StatedPicture> skyline_picture(const std::deque<camera::F
     if (!camera) return std::nullopt;
     skyline::StatedPicture picture{frame.mid_exposure_s, frame.gray, *camera};
     picture.position_sd_enu_m = pointing.pose().position_sd_enu_m;
-    if (!state_sigmas(frame, pointing, *unit, picture)) return std::nullopt;
+    if (!state_sigmas(pointing, *unit, picture)) return std::nullopt;
     return picture;
   }
   return std::nullopt;

@@ -46,7 +46,7 @@ DetectedObject object_of(const DetectedPixel& seen, const Eigen::Matrix2d& J) {
 std::vector<MadeBearing> BearingQueue::take(const PointingModel& pointing, double now_s) {
   std::vector<MadeBearing> bearings;
   std::erase_if(waiting_, [&](const PixelMeasurement& measured) {
-    const auto angles = pointing.angles_at(measured.mid_exposure_s);
+    const auto angles = pointing.angles_at(measured.mid_exposure_s, measured.stamp_sd_s);
     const bool bracketed = angles && angles->interpolated;
     if (!bracketed && now_s - measured.arrived_s < angle_wait_s_) return false;
     if (auto made = make(measured, pointing)) {
@@ -60,7 +60,7 @@ std::vector<MadeBearing> BearingQueue::take(const PointingModel& pointing, doubl
 
 std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
                                               const PointingModel& pointing) {
-  const auto angles = pointing.angles_at(measured.mid_exposure_s);
+  const auto angles = pointing.angles_at(measured.mid_exposure_s, measured.stamp_sd_s);
   if (!angles) {
     counters_["frames_without_angles"] += 1;
     return std::nullopt;
@@ -69,10 +69,7 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
   pixel.pixel = measured.pixel;
   pixel.covariance_px2 = measured.covariance_px2;
   pixel.aim_sd_px = measured.designation_sd_px;
-  // The frame's own stamp adds to the time jitter of the angles.
-  const Eigen::Vector2d rate(angles->rate.pan_rad, angles->rate.tilt_rad);
-  pixel.angles_covariance_rad2 =
-      angles->covariance + rate * rate.transpose() * std::pow(measured.stamp_sd_s, 2);
+  pixel.angles_covariance_rad2 = angles->covariance;
   const auto line = pointing.sight(pixel, *angles);
   if (!line) {
     counters_["pixels_outside_lens_model"] += 1;

@@ -44,6 +44,10 @@ class DetectedObjects {
   std::vector<PixelMeasurement> on_found(detector::Found found,
                                          const std::function<std::int64_t()>& new_track_id,
                                          double now_s);
+  // The frame that the detector looks at; null if there is none, or if its angles were forgotten.
+  const camera::Frame* looks_at() const {
+    return looks_ && !looks_->forgotten ? &looks_->frame : nullptr;
+  }
   // What the newest picture shows of the followed target; returned once for each picture. nullopt
   // if it shows nothing, or if the target followed in that picture had another id. The size changes
   // with a bird's wings; the tracker's box does not.

@@ -53,6 +53,9 @@ class FollowedTarget {
   // the target, so its distance from the target's middle grows in the image as the target does.
   double centring_sd_px() const;
   const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
+  // Mid-exposure of the frame that the tracker processed last; nullopt if it is not comparable with
+  // later ones.
+  const std::optional<double>& tracked_s() const { return tracked_s_; }
   // The tracker's result for exactly this frame; null if it has not processed this frame.
   const tracker::TrackerOutput* output_of(double mid_exposure_s) const {
     return last_output_ && tracked_s_ == mid_exposure_s ? &*last_output_ : nullptr;

@@ -56,6 +56,8 @@ void Station::on_frame(const camera::Frame& frame, double now_s) {
 }
 
 void Station::on_found(detector::Found found) {
+  const camera::Frame* frame = detected_.looks_at();
+  if (frame && found.motion) pointing_.add(*found.motion, found.from_s, *frame);
   const auto new_track_id = [this] { return target_.new_track_id(); };
   for (PixelMeasurement& pixel : detected_.on_found(std::move(found), new_track_id, now_s_)) {
     bearings_.add(std::move(pixel));
@@ -76,8 +78,10 @@ void Station::track(const camera::Frame& frame) {
     const auto place = search_.send_tracker(frame, pointing_, led_to);
     if (place) target_.search_near(place->pixel, place->sd_px);
   }
+  const auto before_s = target_.tracked_s();
   const auto output = target_.track(frame, pointing_);
   if (!output) return;
+  if (before_s && output->image_motion) pointing_.add(*output->image_motion, *before_s, frame);
   // A hidden target may reappear elsewhere; if other stations see it, the slew says where.
   const auto is_at = [&](const std::optional<SlewCommand>& slew) {
     return search_.is_where_slewed(frame, *output, pointing_, slew);

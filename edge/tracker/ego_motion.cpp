@@ -71,6 +71,21 @@ CornerMatches explained(const CornerMatches& matches, const Eigen::Matrix3d& hom
   return kept;
 }
 
+// The middle of the corners in the previous frame, and the 1-sigma of a mean over all corners, by
+// their distances from the homography.
+std::pair<Eigen::Vector2d, double> middle_of(const CornerMatches& matches,
+                                             const Eigen::Matrix3d& homography) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double squares = 0.0;
+  const auto count = static_cast<double>(matches.previous.size());
+  for (std::size_t i = 0; i < matches.previous.size(); ++i) {
+    const Eigen::Vector2d from = vector_of(matches.previous[i]);
+    middle += from / count;
+    squares += (vector_of(matches.current[i]) - transform(homography, from)).squaredNorm();
+  }
+  return {middle, std::sqrt(squares / 2.0) / count};
+}
+
 // Least squares for a homography near the identity: the 3x3 difference from it, row by row, without
 // the last element.
 class CorrectionFit {
@@ -289,7 +304,9 @@ EgoMotionEstimator::Estimate EgoMotionEstimator::step(
   corners_.clear();
   if (!agreed.corners.previous.empty() &&
       plausible_homography(agreed.homography, frame.image.size())) {
-    estimate.homography = to_full * agreed.homography * from_full;
+    const auto [middle, sd] = middle_of(agreed.corners, agreed.homography);
+    estimate.motion = ImageMotion{to_full * agreed.homography * from_full,
+                                  transform(to_full, middle), sd * frame.reduction};
     last_ = agreed.homography;
     corners_ = agreed.corners.current;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edge/tracker/corner_flow.h"
+#include "edge/tracker/image_motion.h"
 #include "edge/tracker/tracker_config.h"
 
 namespace ols::tracker {
@@ -37,9 +38,8 @@ class EgoMotionEstimator {
   EgoMotionEstimator(const TrackerConfig& config, HomographyFit fit) : config_(config), fit_(fit) {}
 
   struct Estimate {
-    // Maps full-frame pixels of the previous frame to this one.
-    std::optional<Eigen::Matrix3d> homography;
-    bool featureless = false;  // too few corners to determine a motion, as in a blank sky
+    std::optional<ImageMotion> motion;  // from the previous frame to this one
+    bool featureless = false;           // too few corners to determine a motion, as in a blank sky
   };
 
   // Takes the first frame, for which there is no motion.

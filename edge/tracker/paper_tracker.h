@@ -15,11 +15,8 @@ class PaperTracker {
   PaperTracker(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
                const cv::Rect2d& box);
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
-  // Measured in the image: maps the previous frame's pixels to the newest one's; nullopt without
-  // texture.
-  const std::optional<Eigen::Matrix3d>& image_homography() const {
-    return scene_motion_.image_homography();
-  }
+  // From the previous frame to the newest one; nullopt without texture.
+  const std::optional<ImageMotion>& image_motion() const { return scene_motion_.image_motion(); }
   // In the paper, the operator designates the target again. Here the particles move to the given
   // place.
   void search_near(const Eigen::Vector2d& pixel, double sd_px);

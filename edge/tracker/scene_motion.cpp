@@ -25,9 +25,9 @@ EgoMotion SceneMotion::advance(const TrackerInput& frame, const cv::Rect2d& targ
   previous_ = std::exchange(present_, reduce_frame(frame.gray, width_px_));
   timer.lap(Stage::kReduction);
   const auto estimate = estimator_.step(present_, target_box, frame.predicted_homography);
-  image_homography_ = estimate.homography;
+  image_motion_ = estimate.motion;
   const bool was_known = homography_.has_value();
-  homography_ = image_homography_ ? image_homography_ : frame.predicted_homography;
+  homography_ = image_motion_ ? image_motion_->homography : frame.predicted_homography;
   may_be_cut_ = was_known && !homography_;
   if (homography_) {
     references_.advance(*homography_);
@@ -37,7 +37,7 @@ EgoMotion SceneMotion::advance(const TrackerInput& frame, const cv::Rect2d& targ
   }
   timer.lap(Stage::kEgoMotion);
   if (!homography_) return EgoMotion::kNone;
-  return image_homography_ ? EgoMotion::kImage : EgoMotion::kPredicted;
+  return image_motion_ ? EgoMotion::kImage : EgoMotion::kPredicted;
 }
 
 const ReferenceFrames::Reference* SceneMotion::a_moment_ago() const {

@@ -33,7 +33,7 @@ class SceneMotion {
   // Maps the previous frame's pixels to the newest one's; nullopt if unknown.
   const std::optional<Eigen::Matrix3d>& homography() const { return homography_; }
   // The same, measured from the image alone; nullopt without texture.
-  const std::optional<Eigen::Matrix3d>& image_homography() const { return image_homography_; }
+  const std::optional<ImageMotion>& image_motion() const { return image_motion_; }
   const ReferenceFrames& references() const { return references_; }
 
   // When the alignment with earlier frames was last lost; a new scene begins there.
@@ -53,7 +53,7 @@ class SceneMotion {
   ReducedFrame present_;
   ReferenceFrames references_;
   std::optional<Eigen::Matrix3d> homography_;
-  std::optional<Eigen::Matrix3d> image_homography_;
+  std::optional<ImageMotion> image_motion_;
   double unaligned_since_s_ = -std::numeric_limits<double>::infinity();
   bool may_be_cut_ = false;
   cv::Size frame_size_;

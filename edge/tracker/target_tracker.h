@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "edge/tracker/colour_picture.h"
+#include "edge/tracker/image_motion.h"
 
 namespace ols::tracker {
 
@@ -32,6 +33,7 @@ struct TrackerOutput {
   Eigen::Matrix2d covariance_px2;  // white part of the covariance of `pixel`
   double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
+  std::optional<ImageMotion> image_motion = {};  // from the previous frame; nullopt without texture
   // [px] Difference, at the target, between two predictions of the scene: the one by the predicted
   // homography, and the one by the image's own motion. At most the image diagonal. nullopt if only
   // one of the two exists. A large value means that angles or times are wrong. A prediction that

@@ -105,9 +105,10 @@ TrackerResult Tracker::track(const TrackerInput& frame) {
         TrackerOutput output = filter.step(usable, timer_);
         const auto& given = frame.predicted_homography;
         output.prediction_dropped = given && !usable.predicted_homography;
-        if (const auto& seen = filter.image_homography(); given && seen) {
+        output.image_motion = filter.image_motion();
+        if (const auto& seen = output.image_motion; given && seen) {
           output.prediction_error_px =
-              disagreement_px(*given, *seen, followed_->pixel, followed_->size);
+              disagreement_px(*given, seen->homography, followed_->pixel, followed_->size);
         }
         followed_->pixel = output.pixel;
         return {output, std::nullopt};

@@ -94,9 +94,9 @@ void TrackerCore::search_near(const Eigen::Vector2d& designated, double sd_px) {
 EgoMotion TrackerCore::move_camera(const TrackerInput& frame, StageTimer& timer) {
   const EgoMotion source = scene_motion_.advance(frame, box_of(last_.pixel, last_.size_px), timer);
   other_step_px_.reset();
-  if (image_homography() && frame.predicted_homography) {
+  if (image_motion() && frame.predicted_homography) {
     const Eigen::Vector2d apart = transform(*frame.predicted_homography, last_.pixel) -
-                                  transform(*image_homography(), last_.pixel);
+                                  transform(image_motion()->homography, last_.pixel);
     if (apart.norm() > kAgree * motion_.position_sd(last_.size_px)) other_step_px_ = apart;
   }
   const CameraMotion motion{scene_motion_.homography(), scene_motion_.interval_s()};

@@ -23,11 +23,8 @@ class TrackerCore {
 
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
-  // Measured in the image: maps the previous frame's pixels to the newest one's; nullopt without
-  // texture.
-  const std::optional<Eigen::Matrix3d>& image_homography() const {
-    return scene_motion_.image_homography();
-  }
+  // From the previous frame to the newest one; nullopt without texture.
+  const std::optional<ImageMotion>& image_motion() const { return scene_motion_.image_motion(); }
 
  private:
   enum class Velocity { kEstimated, kUnknown };

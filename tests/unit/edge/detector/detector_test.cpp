@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "edge/detector/detector_work.h"
 #include "edge/detector/tracklet.h"
 
 namespace ols::detector {
@@ -248,6 +250,24 @@ TEST(Detector, MovingCameraLeavesTheGroundAloneAndFindsTheMover) {
       },
       kImages, shift);
   expect_at(watch.only(), 156.5, 66.5 + 2 * (kImages - 1));
+}
+
+TEST(PictureDetector, SaysHowThePictureMovedSinceTheLast) {
+  PictureDetector detector({});
+  const auto look = [&detector](double from_px, double time_s) {
+    cv::Mat gray;
+    ground(from_px).convertTo(gray, CV_8U);
+    return detector.look({gray, time_s, std::nullopt});
+  };
+  EXPECT_FALSE(look(0.0, 1.0).motion);
+  const Found found = look(2.0, 1.1);
+  ASSERT_TRUE(found.motion);
+  EXPECT_EQ(found.from_s, 1.0);
+  const Eigen::Vector2d to =
+      (found.motion->homography * found.motion->middle_px.homogeneous()).hnormalized();
+  EXPECT_NEAR(to.x() - found.motion->middle_px.x(), -2.0, 4.0 * found.motion->sd_px + 0.02);
+  EXPECT_GT(found.motion->sd_px, 0.0);
+  EXPECT_LT(found.motion->sd_px, 0.1);
 }
 
 TEST(Detector, ImageCorrectsWhatTheMountSaid) {

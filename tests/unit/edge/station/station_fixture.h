@@ -21,6 +21,7 @@ struct ScriptedTracker : tracker::TargetTracker {
     double size_px = 20.0;  // of its box
     bool accept = true, prediction_dropped = false;
     std::optional<double> prediction_error_px;
+    std::optional<tracker::ImageMotion> image_motion;
     int initialised = 0, searches = 0, tracked = 0, set_aside = 0, taken_back = 0;
     Eigen::Vector2d searched_pixel = Eigen::Vector2d::Zero();
     std::optional<tracker::TrackerInput> last;
@@ -45,6 +46,7 @@ struct ScriptedTracker : tracker::TargetTracker {
     output.belief = s.belief;
     output.prediction_error_px = s.prediction_error_px;
     output.prediction_dropped = s.prediction_dropped;
+    output.image_motion = s.image_motion;
     return {output, std::nullopt};
   }
   void search_near(const Eigen::Vector2d& pixel, double) override {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "geometry/angles.h"
+#include "geometry/sight.h"
 #include "geometry/wgs84.h"
 #include "station_fixture.h"
 
@@ -246,6 +248,62 @@ TEST_F(StationTest, WaitsForTheAnglesAfterTheExposureButNotForever) {
   EXPECT_GT(bearings_.size(), before) << "extrapolated for a moment";
   run_until(now_ + 1.0);
   EXPECT_GT(station_.snapshot().counters.at("frames_without_angles"), 5.0);
+}
+
+tracker::ImageMotion image_motion(const StationGeometry& geometry, double pan_rad) {
+  return {rotation_homography(geometry, {}, {pan_rad, 0.0}), {639.5, 479.5}, 0.05};
+}
+
+TEST_F(StationTest, ThePicturesOfTheTrackerCarryTheAnglesWhileTheMountIsSilent) {
+  constexpr double kTurn_deg = 0.1;  // from frame to frame
+  const StationGeometry geometry = config().geometry;
+  script_.image_motion = image_motion(geometry, 0.0);
+  designated_for(1.0);
+  next_sample_ = 1e9;
+  run_until(now_ + 0.2);
+  script_.image_motion = image_motion(geometry, radians(kTurn_deg));
+  bearings_.clear();
+  run_until(now_ + 1.0);
+  ASSERT_GT(bearings_.size(), 13U);
+  double before_deg = degrees(bearings_.front().sight.direction.azimuth_rad);
+  for (std::size_t i = 1; i < bearings_.size(); ++i) {
+    const double azimuth_deg = degrees(bearings_[i].sight.direction.azimuth_rad);
+    EXPECT_NEAR(azimuth_deg - before_deg, -kTurn_deg, 0.002);
+    before_deg = azimuth_deg;
+  }
+  EXPECT_GT(bearings_.back().sight.covariance_white(0, 0),
+            bearings_.front().sight.covariance_white(0, 0));
+  script_.image_motion.reset();
+  run_until(now_ + 0.2);
+  bearings_.clear();
+  run_until(now_ + 0.5);
+  EXPECT_TRUE(bearings_.empty());
+}
+
+TEST_F(StationTest, ThePicturesOfTheDetectorCarryTheAnglesToo) {
+  const StationGeometry geometry = config().geometry;
+  double looked_s = 0.0;
+  const auto look = [&](double pan_rad) {
+    std::optional<detector::Picture> picture;
+    while (!picture) {
+      run_until(now_ + 0.01);
+      picture = station_.picture_to_search(now_);
+    }
+    detector::Found found;
+    found.mid_exposure_s = picture->mid_exposure_s;
+    found.motion = image_motion(geometry, pan_rad);
+    found.from_s = std::exchange(looked_s, picture->mid_exposure_s);
+    station_.on_found(std::move(found));
+  };
+  for (int i = 0; i < 5; ++i) look(0.0);
+  next_sample_ = 1e9;
+  look(0.0);
+  for (int i = 0; i < 3; ++i) look(radians(0.3));
+  script_.image_motion = image_motion(geometry, 0.0);
+  ASSERT_EQ(station_.designate({looked_s, {629, 469, 20, 20}}, now_), Refusal::kNone);
+  run_until(now_ + 0.3);
+  ASSERT_FALSE(bearings_.empty());
+  EXPECT_NEAR(degrees(bearings_.back().sight.direction.azimuth_rad), 30.0 - 0.9, 0.005);
 }
 
 TEST_F(StationTest, CountsFramesThatMoveOtherwiseThanTheAnglesSay) {

@@ -20,9 +20,9 @@ TEST(EgoMotion, MeasuresTheShiftOfTexture) {
   ego.start(reduce_frame(scene.picture({400, 300}, std::nullopt), 640));
   const auto estimate = ego.step(reduce_frame(scene.picture({412.5, 295}, std::nullopt), 640),
                                  cv::Rect2d(), std::nullopt);
-  ASSERT_TRUE(estimate.homography.has_value());
+  ASSERT_TRUE(estimate.motion.has_value());
   for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(20, 20), Eigen::Vector2d(600, 400)}) {
-    const Eigen::Vector2d moved = transform(*estimate.homography, pixel) - pixel;
+    const Eigen::Vector2d moved = transform(estimate.motion->homography, pixel) - pixel;
     EXPECT_NEAR(moved.x(), -12.5, 0.3);
     EXPECT_NEAR(moved.y(), 5.0, 0.3);
   }
@@ -39,9 +39,9 @@ TEST(EgoMotion, MeasuresOnWhileTheCameraTurnsOn) {
     camera += turned;
     const auto estimate = ego.step(reduce_frame(scene.picture(camera, std::nullopt), 640),
                                    cv::Rect2d(), std::nullopt);
-    ASSERT_TRUE(estimate.homography.has_value()) << frame;
+    ASSERT_TRUE(estimate.motion.has_value()) << frame;
     for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(40, 20), Eigen::Vector2d(600, 460)}) {
-      const Eigen::Vector2d moved = transform(*estimate.homography, pixel) - pixel;
+      const Eigen::Vector2d moved = transform(estimate.motion->homography, pixel) - pixel;
       EXPECT_NEAR(moved.x(), -turned.x, 0.3) << frame;
       EXPECT_NEAR(moved.y(), -turned.y, 0.3) << frame;
     }
@@ -54,8 +54,8 @@ TEST(EgoMotion, FindsAFastTurnFromThePrediction) {
   ego.start(reduce_frame(scene.picture({400, 300}, std::nullopt), 640));
   const auto estimate = ego.step(reduce_frame(scene.picture({600, 300}, std::nullopt), 640),
                                  cv::Rect2d(), shift_homography(-196.0, 2.0));
-  ASSERT_TRUE(estimate.homography.has_value());
-  EXPECT_NEAR(transform(*estimate.homography, {400, 200}).x(), 200.0, 0.3);
+  ASSERT_TRUE(estimate.motion.has_value());
+  EXPECT_NEAR(transform(estimate.motion->homography, {400, 200}).x(), 200.0, 0.3);
 }
 
 TEST(EgoMotion, HasNoneBeforeBlankSky) {
@@ -64,7 +64,7 @@ TEST(EgoMotion, HasNoneBeforeBlankSky) {
   ego.start(reduce_frame(scene.picture({400, 300}, std::nullopt), 640));
   const auto estimate = ego.step(reduce_frame(scene.picture({400, 300}, std::nullopt), 640),
                                  cv::Rect2d(), std::nullopt);
-  EXPECT_FALSE(estimate.homography.has_value());
+  EXPECT_FALSE(estimate.motion.has_value());
   EXPECT_TRUE(estimate.featureless);
 }
 
@@ -98,9 +98,9 @@ TEST(EgoMotion, IsRansacsOwnWhereThatIsAskedFor) {
   for (const HomographyFit fit : {HomographyFit::kRansac, HomographyFit::kLeastSquares}) {
     EgoMotionEstimator estimator(TrackerConfig{}, fit);
     estimator.start(reduce_frame(before, 640));
-    const auto found = estimator.step(reduce_frame(after, 640), {}, std::nullopt).homography;
+    const auto found = estimator.step(reduce_frame(after, 640), {}, std::nullopt).motion;
     ASSERT_TRUE(found.has_value());
-    const double off_px = std::abs(transform(*found, {320.0, 0.0}).x() - (320.0 - 7.2));
+    const double off_px = std::abs(transform(found->homography, {320.0, 0.0}).x() - (320.0 - 7.2));
     EXPECT_EQ(off_px < 1.5, fit == HomographyFit::kRansac) << off_px;
   }
 }

@@ -27,13 +27,14 @@ TEST(SceneMotion, GoesByTheImageThenByThePredictionThenByNothing) {
   EXPECT_LT(
       (transform(*motion.homography(), {300.0, 200.0}) - Eigen::Vector2d(288.0, 195.0)).norm(),
       0.3);
-  EXPECT_EQ(motion.image_homography(), motion.homography());
+  ASSERT_TRUE(motion.image_motion());
+  EXPECT_EQ(motion.image_motion()->homography, motion.homography());
   const cv::Mat blank(480, 640, CV_8U, cv::Scalar(150));
   TrackerInput predicted = frame_at(2, blank);
   predicted.predicted_homography = testing::shift_homography(-7.0, 2.0);
   EXPECT_EQ(motion.advance(predicted, kBox, timer), EgoMotion::kPredicted);
   EXPECT_EQ(motion.homography(), predicted.predicted_homography);
-  EXPECT_FALSE(motion.image_homography());
+  EXPECT_FALSE(motion.image_motion());
   EXPECT_EQ(motion.advance(frame_at(3, blank), kBox, timer), EgoMotion::kNone);
   EXPECT_FALSE(motion.homography());
 }

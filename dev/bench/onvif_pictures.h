@@ -1,0 +1,38 @@
+// The pictures of the simulated ONVIF camera for ols-bench-onvif: a landscape at its true angles,
+// or what a camera may see instead of one.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <random>
+
+#include "geometry/sight.h"
+#include "sim/world/panorama.h"
+
+namespace ols::bench {
+
+enum class Scene {
+  kLandscape,
+  kBlank,    // a sky without any structure
+  kDrifts,   // all that is seen moves by itself, as clouds do
+  kPassing,  // for some seconds an object covers most of the picture, and moves
+};
+
+// The station's geometry: a wide lens of a PTZ camera, 640 x 480.
+StationGeometry ptz_geometry();
+
+class OnvifPictures {
+ public:
+  OnvifPictures(Scene scene, std::uint64_t seed);
+  cv::Mat draw(const PanTilt& angles, double time_s);
+
+ private:
+  void draw_landscape(const PanTilt& angles, cv::Mat& gray);
+
+  Scene scene_;
+  StationGeometry geometry_ = ptz_geometry();
+  sim::Panorama panorama_;
+  cv::RNG noise_;
+  cv::Mat object_;
+};
+
+}  // namespace ols::bench
