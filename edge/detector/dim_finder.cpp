@@ -108,6 +108,8 @@ bool DimFinder::is_followed(const Eigen::Vector2d& pixel) const {
 
 void DimFinder::remember(const cv::Mat& gray, double time_s,
                          const std::optional<Eigen::Matrix3d>& motion) {
+  constexpr double kPause_s = 1.0;  // what is there after it may be anything else
+  if (!times_s_.empty() && time_s - times_s_.back() > kPause_s) clear();
   const Eigen::Matrix3d known = motion.value_or(Eigen::Matrix3d::Identity());
   past_.add(residual_.measure(gray), known);
   times_s_.push_back(time_s);

@@ -36,7 +36,7 @@ class DimFinder {
 
   // `gray`: 8-bit, one channel. `motion` maps the previous image's pixels to this image's; nullopt:
   // unknown, and the scene is taken to be at rest in the image. Returns what was measured in this
-  // image.
+  // image. Begins anew after a pause of a second.
   std::vector<Detection> find(const cv::Mat& gray, double time_s,
                               const std::optional<Eigen::Matrix3d>& motion);
   // Begins anew, because the scene changed at once.

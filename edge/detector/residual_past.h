@@ -12,7 +12,8 @@ class ResidualPast {
  public:
   static constexpr std::size_t kImages = 16;
 
-  // `residual`: of BinnedResidual. `motion` maps the previous image's pixels to the new image's.
+  // `residual`: of BinnedResidual. `motion` maps the previous image's pixels to the new image's. If
+  // the motion cannot be inverted, the past begins anew.
   void add(const cv::Mat& residual, const Eigen::Matrix3d& motion);
   void clear() { kept_.clear(); }
   bool complete() const { return kept_.size() == kImages; }

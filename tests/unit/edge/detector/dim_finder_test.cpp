@@ -189,6 +189,25 @@ TEST(DimFinder, MovingTextureIsNotSearched) {
   EXPECT_EQ(found, 0U);
 }
 
+TEST(DimFinder, BeginsAnewAfterAPause) {
+  const Mover mover = movers()[0];
+  cv::RNG random(1);
+  DimFinder finder{DimConfig{}};
+  std::vector<int> images;
+  for (int i = 0; i < 80; ++i) {
+    cv::Mat picture(kSize, CV_32F), gray;
+    random.fill(picture, cv::RNG::NORMAL, 120.3, kNoise);
+    draw(picture, mover.at(i), 2.0 * mover.signal);
+    picture.convertTo(gray, CV_8U);
+    const double pause_s = i < 40 ? 0.0 : 2.0;
+    if (!finder.find(gray, i * kInterval_s + pause_s, std::nullopt).empty()) images.push_back(i);
+  }
+  ASSERT_FALSE(images.empty());
+  EXPECT_LT(images.front(), 40);
+  EXPECT_GT(images.back(), 40 + 14);
+  for (const int image : images) EXPECT_TRUE(image < 40 || image >= 40 + 15) << image;
+}
+
 TEST(DimFinder, SearchesTheSkyThatFollowsTheGround) {
   constexpr int kGround = 40;
   cv::Mat texture(kSize, CV_32F);
