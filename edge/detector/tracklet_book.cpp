@@ -19,7 +19,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 }  // namespace
 
 TrackletBook::TrackletBook(const TrackletConfig& config, const cv::Size& image)
-    : config_(config), clutter_(image), image_(image) {}
+    : config_(config), clutter_(image), stack_clutter_(image), image_(image) {}
 
 // In squared standard deviations. The path of a dim point says which tracklet it is. Anything else
 // belongs to that tracklet only if it is close: between two stacks the prediction becomes so
@@ -66,11 +66,16 @@ void TrackletBook::leap(const std::vector<Detection>& detections, std::vector<bo
   }
 }
 
+ClutterMap& TrackletBook::clutter_of(const Detection& detection) {
+  return detection.path ? stack_clutter_ : clutter_;
+}
+
 // Wald's bound: at most exp(-bound) of the clutter's tracklets pass. The clutter map says how many
 // begin in a tile, and each tile may have the same share of the allowed false ones.
 double TrackletBook::needed(const Tracklet& tracklet) const {
   const double allowed = config_.false_an_hour / (ClutterMap::kColumns * ClutterMap::kRows);
-  return std::max(3.0, std::log(clutter_.starts_an_hour(tracklet.pixel()) / allowed));
+  const ClutterMap& clutter = tracklet.path() ? stack_clutter_ : clutter_;
+  return std::max(3.0, std::log(clutter.starts_an_hour(tracklet.pixel()) / allowed));
 }
 
 void TrackletBook::weigh_hit(Tracklet& tracklet, const Detection& detection) {
@@ -142,6 +147,7 @@ void TrackletBook::advance(const std::vector<Detection>& detections,
                            const std::optional<Eigen::Matrix3d>& motion, double interval_s) {
   constexpr double kForget_s = 1.0;  // a pause: what is there now may be any other object
   clutter_.next_image(interval_s);
+  stack_clutter_.next_image(interval_s);
   if (interval_s > kForget_s) tracklets_.clear();
   for (Tracklet& tracklet : tracklets_) {
     tracklet.predict(motion.value_or(Eigen::Matrix3d::Identity()), interval_s);
@@ -159,7 +165,7 @@ void TrackletBook::advance(const std::vector<Detection>& detections,
     const auto index = static_cast<std::size_t>(assigned[i]);
     taken[index] = true;
     weigh_hit(tracklet, detections[index]);
-    if (!tracklet.confirmed()) clutter_.add_detection(detections[index].pixel);
+    if (!tracklet.confirmed()) clutter_of(detections[index]).add_detection(detections[index].pixel);
     tracklet.update(detections[index]);
     judge(tracklet);
   }
@@ -167,8 +173,8 @@ void TrackletBook::advance(const std::vector<Detection>& detections,
   std::erase_if(tracklets_, [this](const Tracklet& tracklet) { return hopeless(tracklet); });
   for (std::size_t j = 0; j < detections.size(); ++j) {
     if (taken[j]) continue;
-    clutter_.add_detection(detections[j].pixel);
-    clutter_.add_start(detections[j].pixel);
+    clutter_of(detections[j]).add_detection(detections[j].pixel);
+    clutter_of(detections[j]).add_start(detections[j].pixel);
     tracklets_.emplace_back(next_id_++, detections[j], image_.width);
   }
 }

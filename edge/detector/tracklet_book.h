@@ -43,6 +43,7 @@ class TrackletBook {
   void leap(const std::vector<Detection>& detections, std::vector<bool>& taken);
   void weigh_hit(Tracklet& tracklet, const Detection& detection);
   void weigh_miss(Tracklet& tracklet);
+  ClutterMap& clutter_of(const Detection& detection);
   // The threshold of the sequential test in the tracklet's tile [log].
   double needed(const Tracklet& tracklet) const;
   void judge(Tracklet& tracklet) const;
@@ -52,7 +53,8 @@ class TrackletBook {
   bool hopeless(const Tracklet& tracklet) const;
 
   TrackletConfig config_;
-  ClutterMap clutter_;
+  // Single images and stacks have different clutter.
+  ClutterMap clutter_, stack_clutter_;
   cv::Size image_;
   std::vector<Tracklet> tracklets_;
   long next_id_ = 1;

@@ -256,6 +256,29 @@ TEST(TrackletBook, SpotsAroundADimPointAreNotIt) {
   EXPECT_NEAR(book.tracklets()[0].pixel().y(), 200.0, 1.0);
 }
 
+TEST(TrackletBook, DimPointsDoNotCountAsClutterOfSpots) {
+  const auto images_until_confirmed = [](bool dim_points) {
+    TrackletBook book(TrackletConfig{}, kView);
+    const auto is_confirmed = [&] {
+      return std::ranges::any_of(book.tracklets(), [](const Tracklet& tracklet) {
+        return tracklet.confirmed() && !tracklet.path();
+      });
+    };
+    int image = 0;
+    for (; !is_confirmed() && image < 200; ++image) {
+      std::vector<Detection> detections{clear_spot(110.0, 210.0)};
+      for (long i = 0; dim_points && i < 4; ++i) {
+        detections.push_back(dim_point(0, 10 * image + i));
+        detections.back().pixel = {85.0 + 13.0 * static_cast<double>(i), 235.0};
+      }
+      if (image < 20) detections.erase(detections.begin());
+      book.advance(detections, kStill, kTick_s);
+    }
+    return image;
+  };
+  EXPECT_EQ(images_until_confirmed(true), images_until_confirmed(false));
+}
+
 TEST(TrackletBook, SpotAtADimPointContinuesIt) {
   TrackletBook book(TrackletConfig{}, kView);
   show(book, 4, 3 * kStack + 1);
