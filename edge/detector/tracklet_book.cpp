@@ -21,14 +21,17 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 TrackletBook::TrackletBook(const TrackletConfig& config, const cv::Size& image)
     : config_(config), clutter_(image), stack_clutter_(image), image_(image) {}
 
-// In squared standard deviations. The path of a dim point says which tracklet it is. Anything else
-// belongs to that tracklet only if it is close: between two stacks the prediction becomes so
-// uncertain that all noise around would fit.
+// In squared standard deviations. The path of a dim point says which tracklet it is. A dim point
+// and what single images show belong together only if they are close: between two stacks the
+// prediction becomes so uncertain that all noise around would fit, and so does that of a tracklet
+// of one image.
 double TrackletBook::distance(const Tracklet& tracklet, const Detection& detection) const {
   constexpr double kNear_px = 6.0;
-  if (!tracklet.path()) return tracklet.distance(detection);
-  if (detection.path && detection.path->id == *tracklet.path()) return 0.0;
-  if ((detection.pixel - tracklet.pixel()).norm() > kNear_px) return kNever;
+  if (tracklet.path() && detection.path && detection.path->id == *tracklet.path()) return 0.0;
+  if ((tracklet.path() || detection.path) &&
+      (detection.pixel - tracklet.pixel()).norm() > kNear_px) {
+    return kNever;
+  }
   return tracklet.distance(detection);
 }
 

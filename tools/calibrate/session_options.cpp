@@ -54,7 +54,11 @@ ProcedureOptions resumed_options(const std::string& text, const ProcedureOptions
   try {
     const Json object = Json::parse(text);
     procedure = object.at("procedure").get<std::string>();
-    each_kept(o, [&](const char* key, auto& value) { read(object.at(key), value); });
+    each_kept(o, [&](const std::string& key, auto& value) {
+      // Sessions of earlier versions have no date.
+      if (key == "ut1_date" && !object.contains(key)) return;
+      read(object.at(key), value);
+    });
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(path + ": " + error.what());
   }

@@ -256,6 +256,13 @@ TEST(TrackletBook, SpotsAroundADimPointAreNotIt) {
   EXPECT_NEAR(book.tracklets()[0].pixel().y(), 200.0, 1.0);
 }
 
+TEST(TrackletBook, ADimPointDoesNotContinueASpotThatIsNotNearIt) {
+  TrackletBook book(TrackletConfig{}, kView);
+  book.advance({clear_spot(112.0, 205.0)}, kStill, kTick_s);
+  book.advance({dim_point(1, 1)}, kStill, kTick_s);
+  EXPECT_EQ(book.tracklets().size(), 2U) << "of a single image nearly any motion would fit";
+}
+
 TEST(TrackletBook, DimPointsDoNotCountAsClutterOfSpots) {
   const auto images_until_confirmed = [](bool dim_points) {
     TrackletBook book(TrackletConfig{}, kView);
