@@ -148,13 +148,12 @@ std::optional<LineOfSight> PointingModel::sight(PixelSight pixel, const UnitAngl
                                            unit.reading, pixel.angles_covariance_rad2});
 }
 
-std::optional<video::CameraView> PointingModel::camera_at(double time_s) const {
-  const auto at = angles_at(time_s);
-  const auto zoom = zoom_at(time_s);
-  if (!at || !zoom) return std::nullopt;
-  const Eigen::Matrix3d R_enu_camera = enu_from_camera(geometry_.chain, at->angles).linear();
+std::optional<video::CameraView> PointingModel::camera_at(const UnitAngles& unit) const {
+  const auto zoom = zoom_at(unit.time_s);
+  if (!zoom) return std::nullopt;
+  const Eigen::Matrix3d R_enu_camera = enu_from_camera(geometry_.chain, unit.angles).linear();
   return video::CameraView{
-      camera_centre_ecef(geometry_, at->angles),
+      camera_centre_ecef(geometry_, unit.angles),
       (R_ecef_enu(ecef_from_geodetic(geometry_.position)) * R_enu_camera).transpose(),
       zoom->camera};
 }

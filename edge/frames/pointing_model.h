@@ -75,8 +75,8 @@ class PointingModel {
     const auto newest = newest_angles();
     return newest ? std::optional(newest->angles) : std::nullopt;
   }
-  // The camera's position and direction at an instant; nullopt if the unit's angles are not known.
-  std::optional<video::CameraView> camera_at(double time_s) const;
+  // The camera's position and direction with these angles; nullopt if the zoom is not known.
+  std::optional<video::CameraView> camera_at(const UnitAngles& unit) const;
   // The camera with its deviations at an instant; nullopt if the zoom is not known.
   std::optional<ZoomPoint> zoom_at(double time_s) const;
   // Whether the zoom stood still at an instant, as a lens without a motor always does; nullopt if

@@ -63,7 +63,7 @@ std::optional<skyline::StatedPicture> skyline_picture(const std::deque<camera::F
     const auto zoom_rests = pointing.zoom_rests(frame.mid_exposure_s);
     if (!zoom_rests) continue;
     if (!is_at_rest(*unit) || !*zoom_rests) return std::nullopt;
-    const auto camera = pointing.camera_at(frame.mid_exposure_s);
+    const auto camera = pointing.camera_at(*unit);
     if (!camera) return std::nullopt;
     skyline::StatedPicture picture{frame.mid_exposure_s, frame.gray, *camera};
     picture.position_sd_enu_m = pointing.pose().position_sd_enu_m;

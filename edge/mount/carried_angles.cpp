@@ -68,7 +68,7 @@ std::optional<AngleAt> CarriedAngles::at(double time_s) const {
   const auto tilt = tilt_.at(seen_of(*seen, &PanTilt::tilt_rad));
   AngleAt result;
   result.angles = {pan->angle_rad, tilt->angle_rad};
-  result.rate = seen->rate;
+  result.rate = {pan->rate_rad_s, tilt->rate_rad_s};
   result.covariance = Eigen::Vector2d(pan->variance_rad2, tilt->variance_rad2).asDiagonal();
   return result;
 }

@@ -33,7 +33,7 @@ class CarriedAxis {
     double bend_rad2 = 0.0;  // variance of turned_rad at this instant alone
   };
   struct At {
-    double angle_rad, variance_rad2;
+    double angle_rad, rate_rad_s, variance_rad2;
   };
 
   // The report of an instant, in order of time. A report that contradicts the filter restarts it:

@@ -35,7 +35,8 @@ video::VideoFrame seen_in(const camera::Frame& frame, const StationParts& parts)
   video::VideoFrame seen;
   seen.gray = frame.gray;
   seen.track_id = parts.target.track_id();
-  seen.camera = parts.pointing.camera_at(frame.mid_exposure_s);
+  const auto angles = parts.pointing.angles_at(frame.mid_exposure_s, frame.stamp_sd_s);
+  if (angles) seen.camera = parts.pointing.camera_at(*angles);
   const auto* output = parts.follows ? parts.target.output_of(frame.mid_exposure_s) : nullptr;
   if (output == nullptr) return seen;
   seen.box = output->box;

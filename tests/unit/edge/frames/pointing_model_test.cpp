@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/angles.h"
+#include "geometry/sight.h"
 #include "tests/unit/edge/station/angle_sample.h"
 
 namespace ols::station {
@@ -58,6 +59,30 @@ TEST(PointingModel, ReachesADirectionByTheCountsThatAreNear) {
   EXPECT_NEAR(degrees(there->pan_rad), 365.0, 1e-9);
   const auto from_zero = pointing.reachable_from({}, {radians(5.0), 0.0});
   EXPECT_NEAR(degrees(from_zero->pan_rad), 5.0, 1e-9);
+}
+
+// The pictures show that it turns on after its newest report at 10 s.
+TEST(PointingModel, GoalsAndMotionsAreByTheReportsAlone) {
+  PointingModel pointing(config());
+  pointing.set_limits({-radians(400), radians(400), -radians(46), radians(31)});
+  for (const double time_s : {9.8, 9.9, 10.0})
+    pointing.add(angle_sample(time_s, {radians(184.9), 0.0}));
+  double pan_rad = radians(184.9);
+  for (double from_s = 9.7; from_s < 10.25; from_s += 0.1) {
+    const double turned_rad = pan_rad + (from_s > 9.95 ? radians(1.0) : 0.0);
+    const tracker::ImageMotion motion{
+        rotation_homography(pointing.geometry(), {pan_rad, 0.0}, {turned_rad, 0.0}),
+        Eigen::Vector2d(640, 480), 0.1};
+    camera::Frame frame;
+    frame.mid_exposure_s = from_s + 0.1;
+    pointing.add(motion, from_s, frame);
+    pan_rad = turned_rad;
+  }
+  const auto carried = pointing.angles_at(10.3);
+  ASSERT_TRUE(carried);
+  EXPECT_NEAR(degrees(carried->angles.pan_rad), 187.9, 0.1);
+  EXPECT_NEAR(degrees(pointing.reachable({radians(5.0), 0.0})->pan_rad), 5.0, 1e-9);
+  EXPECT_FALSE(pointing.homography(10.0, 10.3));
 }
 
 TEST(PointingModel, APixelOnTheAxisIsThePrincipalPoint) {

@@ -45,7 +45,7 @@ TEST(SkylinePictureTest, IsTheNewestWithAnglesOnBothSidesAndSaysWhatIsStated) {
   EXPECT_NEAR(picture->azimuth_sd_rad, kHeadingSd_rad, 0.05 * kHeadingSd_rad);
   EXPECT_NEAR(picture->elevation_sd_rad, radians(0.01), radians(0.002));
   EXPECT_EQ(picture->position_sd_enu_m, Eigen::Vector3d::Constant(0.3));
-  const auto camera = pointing.camera_at(10.4);
+  const auto camera = pointing.camera_at(*pointing.angles_at(10.4));
   EXPECT_EQ(picture->camera.centre_ecef, camera->centre_ecef);
   EXPECT_EQ(picture->camera.R_camera_ecef, camera->R_camera_ecef);
 }

@@ -24,6 +24,7 @@ struct MountAndCamera {
   double scale = 1.0;                        // of what the pictures show
   std::function<double(double)> scene = {};  // [rad/s] the scene's own motion
   bool swings = true;                        // back and forth, up to 5 deg/s; or straight on
+  double begins_s = 3.0;                     // it rests until then
 };
 
 AngleHistory::Config history_config() {
@@ -44,7 +45,7 @@ class Simulated {
         stamp_error_s_(normal(devices.stamp_sd_s)) {}
 
   double truth(double time_s) const {
-    const double turns_s = std::max(0.0, time_s - 3.0);
+    const double turns_s = std::max(0.0, time_s - devices_.begins_s);
     constexpr double kTurns_rad_s = 2.0 * kPi / 12.0;
     if (!devices_.swings) return radians(5.0) * turns_s;
     return radians(5.0) / kTurns_rad_s * std::sin(kTurns_rad_s * turns_s);
@@ -214,14 +215,56 @@ TEST(MountAngles, AtRestTheSameReportAgainDoesNotImproveTheAngle) {
   EXPECT_GT(std::sqrt(at->covariance(0, 0)), radians(0.07));
 }
 
-TEST(MountAngles, ExactReportsNeedNoPictures) {
-  MountAndCamera devices{.late_s = -0.2, .jitter_s = 0.0, .delay_sd_s = 0.0, .place_sd_rad = 0.0};
-  devices.picture_sd_rad = radians(0.01);
+// Clouds make a mount that rests move neither fast nor slowly.
+TEST(MountAngles, TheRateIsWithoutTheScenesOwnMotion) {
+  MountAndCamera devices{.picture_sd_rad = 1e-6, .scene = [](double) { return radians(0.4); }};
+  devices.begins_s = 1e3;
   Simulated run(devices, 1);
-  run.run_to(2.9);
-  const double time_s = run.picture_s() - kPicture_s;
-  EXPECT_EQ(run.angles().at(time_s)->angles.pan_rad,
-            run.angles().reported().at(time_s)->angles.pan_rad);
+  int carried = 0;
+  for (double time_s = 20.0; time_s < 40.0; time_s += kPicture_s) {
+    run.run_to(time_s);
+    const double picture_s = run.picture_s() - kPicture_s;
+    const auto at = run.angles().at(picture_s), reported = run.angles().reported().at(picture_s);
+    ASSERT_TRUE(at && reported);
+    if (at->angles.pan_rad != reported->angles.pan_rad) ++carried;
+    EXPECT_NEAR(degrees(at->rate.pan_rad), 0.0, 0.02) << time_s;
+  }
+  EXPECT_GT(carried, 100);
+}
+
+TEST(MountAngles, TheRateIsThatOfTheMountsScale) {
+  MountAndCamera devices{.jitter_s = 0.0, .delay_sd_s = 0.0, .picture_sd_rad = 1e-6};
+  devices.place_sd_rad = radians(1e-3);
+  devices.scale = 1.03;
+  Simulated run(devices, 1);
+  run.run_to(27.0);
+  EXPECT_NEAR(degrees(run.angles().at(27.0)->rate.pan_rad), 5.0, 0.03);
+}
+
+// As those of a unit of FLIR at rest, before and after its newest report; also under clouds.
+TEST(MountAngles, ExactReportsNeedNoPictures) {
+  constexpr double kStep_rad = 5.61e-5;
+  MountAndCamera devices{.jitter_s = 1e-4, .delay_sd_s = 1e-4, .picture_sd_rad = 1e-6};
+  devices.step_rad = kStep_rad;
+  devices.place_sd_rad = kStep_rad / std::sqrt(12.0);
+  devices.begins_s = 1e3;
+  for (const double late_s : {-0.2, 0.1}) {
+    for (const double scene_deg_s : {0.0, 0.05, 0.4}) {
+      devices.late_s = late_s;
+      devices.scene = [=](double) { return radians(scene_deg_s); };
+      Simulated run(devices, 1);
+      for (double time_s = 1.0; time_s < 20.0; time_s += kPicture_s) {
+        run.run_to(time_s);
+        const double picture_s = run.picture_s() - kPicture_s;
+        const auto at = run.angles().at(picture_s),
+                   reported = run.angles().reported().at(picture_s);
+        ASSERT_TRUE(at && reported);
+        EXPECT_EQ(at->angles.pan_rad, reported->angles.pan_rad) << time_s;
+        EXPECT_EQ(at->rate.pan_rad, reported->rate.pan_rad) << time_s;
+        EXPECT_LT(std::sqrt(at->covariance(0, 0)), radians(0.005)) << time_s;
+      }
+    }
+  }
 }
 
 TEST(MountAngles, WithoutPicturesTheReportsAreAll) {
