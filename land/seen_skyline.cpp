@@ -16,13 +16,16 @@ void SeenSkyline::set(int column, const SeenCrest& crest) {
   at = crest;
 }
 
+void SeenSkyline::remove(int column) {
+  if (crests_.empty()) return;
+  auto& at = crests_[static_cast<std::size_t>(column)];
+  if (at) --count_;
+  at.reset();
+}
+
 void SeenSkyline::set_sector(int sector, std::span<const Column> columns) {
   const int first = sector * kSectorColumns;
-  for (int column = first; column < first + kSectorColumns && !crests_.empty(); ++column) {
-    auto& at = crests_[static_cast<std::size_t>(column)];
-    if (at) --count_;
-    at.reset();
-  }
+  for (int column = first; column < first + kSectorColumns; ++column) remove(column);
   for (const auto& [column, crest] : columns) {
     if (column / kSectorColumns == sector) set(column, crest);
   }
@@ -48,9 +51,12 @@ std::optional<SeenCrest> SeenSkyline::at(double azimuth_rad) const {
   return std::nullopt;
 }
 
-Skyline hiding(const Skyline& model, const SeenCrest& seen, double distance_m) {
-  if (seen.hides_from_m == 0.0 || distance_m < seen.hides_from_m) return model;
-  return {seen.elevation_rad, seen.sd_rad, seen.hides_from_m};
+Skyline SeenSkyline::hiding(const Skyline& model, double azimuth_rad, double distance_m) const {
+  const auto seen = at(azimuth_rad);
+  if (!seen || seen->hides_from_m == 0.0 || distance_m < seen->hides_from_m) return model;
+  const bool is_beside = !crests_[static_cast<std::size_t>(column_of(azimuth_rad))];
+  if (is_beside && seen->elevation_rad < model.elevation_rad) return model;
+  return {seen->elevation_rad, seen->sd_rad, seen->hides_from_m};
 }
 
 }  // namespace ols::land

@@ -42,6 +42,7 @@ class SeenSkyline {
   static double azimuth_rad(int column) { return (column + 0.5) * 2.0 * kPi / kColumns; }
 
   void set(int column, const SeenCrest& crest);
+  void remove(int column);
   // Replaces all columns of a sector; columns of other sectors are ignored.
   void set_sector(int sector, std::span<const Column> columns);
   // In the order of their azimuths.
@@ -51,14 +52,14 @@ class SeenSkyline {
 
   // The nearest column that has been seen, within 0.1 degrees. nullopt if there is none.
   std::optional<SeenCrest> at(double azimuth_rad) const;
+  // What hides a point at `distance_m`: `model` is what the map has before that distance. A column
+  // beside the azimuth only raises it: between the two may stand the edge of a house.
+  Skyline hiding(const Skyline& model, double azimuth_rad, double distance_m) const;
 
  private:
   int count_ = 0;
   // Empty, or one for each column.
   std::vector<std::optional<SeenCrest>> crests_;
 };
-
-// What hides a point at `distance_m`: `model` is what the map has before that distance.
-Skyline hiding(const Skyline& model, const SeenCrest& seen, double distance_m);
 
 }  // namespace ols::land

@@ -85,8 +85,7 @@ class Looks {
 
   std::optional<land::Skyline> highest_before(double azimuth_rad, double distance_m) const {
     const auto land = horizon_.highest_before(azimuth_rad, distance_m);
-    const auto seen = land && seen_ != nullptr ? seen_->at(azimuth_rad) : std::nullopt;
-    return seen ? land::hiding(*land, *seen, distance_m) : land;
+    return land && seen_ != nullptr ? seen_->hiding(*land, azimuth_rad, distance_m) : land;
   }
 
   double crest_at(std::size_t instant) const {

@@ -32,20 +32,40 @@ TEST(SeenSkyline, ASectorReplacesWhatWasSeenThere) {
   EXPECT_EQ(skyline.sector(0).size(), 2U);
   EXPECT_EQ(skyline.sector(0).at(1).column, 8);
   EXPECT_EQ(skyline.count(), 4);
+  skyline.remove(8);
+  skyline.remove(9);
+  EXPECT_EQ(skyline.count(), 3);
   for (int sector = 0; sector < SeenSkyline::kSectors; ++sector) skyline.set_sector(sector, {});
   EXPECT_TRUE(skyline.empty());
 }
 
 TEST(SeenSkyline, HidesWhatIsBeyondItAndNothingBefore) {
   const Skyline model{.elevation_rad = 0.01, .elevation_sd_rad = 0.004, .distance_m = 300.0};
-  EXPECT_EQ(hiding(model, kCrest, 399.0).elevation_rad, 0.01);
-  const Skyline beyond = hiding(model, kCrest, 401.0);
+  const double azimuth_rad = SeenSkyline::azimuth_rad(7);
+  SeenSkyline skyline;
+  EXPECT_EQ(skyline.hiding(model, azimuth_rad, 401.0).elevation_rad, 0.01) << "nothing is seen";
+  skyline.set(7, kCrest);
+  EXPECT_EQ(skyline.hiding(model, azimuth_rad, 399.0).elevation_rad, 0.01);
+  const Skyline beyond = skyline.hiding(model, azimuth_rad, 401.0);
   EXPECT_EQ(beyond.elevation_rad, 0.05);
   EXPECT_EQ(beyond.elevation_sd_rad, 0.001);
   EXPECT_EQ(beyond.distance_m, 400.0);
   SeenCrest in_haze = kCrest;
   in_haze.hides_from_m = 0.0;
-  EXPECT_EQ(hiding(model, in_haze, 1e4).elevation_rad, 0.01);
+  skyline.set(7, in_haze);
+  EXPECT_EQ(skyline.hiding(model, azimuth_rad, 1e4).elevation_rad, 0.01);
+}
+
+TEST(SeenSkyline, OnlyItsOwnColumnLowersTheModel) {
+  const Skyline house{.elevation_rad = 0.2, .elevation_sd_rad = 0.004, .distance_m = 300.0};
+  SeenSkyline skyline;
+  skyline.set(7, kCrest);
+  const auto at_column = [&](int column, const Skyline& model) {
+    return skyline.hiding(model, SeenSkyline::azimuth_rad(column), 500.0).elevation_rad;
+  };
+  EXPECT_EQ(at_column(7, house), 0.05);
+  EXPECT_EQ(at_column(8, house), 0.2);
+  EXPECT_EQ(at_column(8, {.elevation_rad = 0.01, .distance_m = 300.0}), 0.05) << "but raises it";
 }
 
 }  // namespace
