@@ -15,7 +15,6 @@
 #include "geometry/angles.h"
 #include "geometry/mgrs.h"
 #include "geometry/wgs84.h"
-#include "land/seen_skyline.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/occlusion_t.hpp"
@@ -23,6 +22,7 @@
 #include "ols_msg/target_t.hpp"
 #include "wire/fusion_status.h"
 #include "wire/read.h"
+#include "wire/skyline.h"
 #include "wire/station_status.h"
 #include "wire/target.h"
 
@@ -300,12 +300,9 @@ std::optional<ReceivedTarget> target_from(const BusMessage& message) {
 
 std::optional<ReceivedSkyline> skyline_from(const BusMessage& message) {
   const auto heard = wire::read<ols_msg::skyline_t>(kSkylineChannel, message);
-  if (!heard || heard->sector < 0 || heard->sector >= land::SeenSkyline::kSectors) {
-    return std::nullopt;
-  }
+  if (!heard || !wire::is_skyline(*heard)) return std::nullopt;
   ReceivedSkyline skyline{heard->station, heard->begun_utime, heard->sector};
   for (std::size_t i = 0; i < heard->column.size(); ++i) {
-    if (heard->column[i] / land::SeenSkyline::kSectorColumns != heard->sector) continue;
     if (heard->disagrees[i])
       skyline.differing.emplace_back(heard->column[i], heard->elevation_rad[i]);
   }

@@ -19,6 +19,7 @@
 #include "ols_msg/skyline_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "wire/read.h"
+#include "wire/skyline.h"
 
 namespace ols::fusion {
 namespace {
@@ -230,27 +231,20 @@ std::variant<SkylineSector, MessageRefusal> skyline_sector_from(const std::strin
   ols_msg::skyline_t message;
   const auto refusal = decode(kSkylineChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
+  if (!wire::is_skyline(message)) return MessageRefusal::kOutOfRange;
+  static_assert(wire::kSkylineSectors == land::SeenSkyline::kSectors &&
+                wire::kSkylineSectorColumns == land::SeenSkyline::kSectorColumns);
   SkylineSector sector{.station = message.station,
                        .begun_us = message.begun_utime,
                        .camera_ecef = Eigen::Vector3d(message.camera_ecef_m),
                        .heading_disagrees = message.heading_disagrees != 0,
-                       .sector = message.sector};
-  using land::SeenSkyline;
-  const auto within = [](double value, double least, double most) {
-    return value >= least && value <= most;
-  };
-  bool is_good = within(message.sector, 0, SeenSkyline::kSectors - 1) &&
-                 message.columns <= SeenSkyline::kSectorColumns && sector.camera_ecef.allFinite();
-  for (std::size_t i = 0; i < message.column.size() && is_good; ++i) {
-    const land::SeenCrest crest{message.elevation_rad[i], message.sd_rad[i],
-                                message.hides_from_m[i], message.disagrees[i] != 0};
-    is_good = message.column[i] >= 0 &&
-              message.column[i] / SeenSkyline::kSectorColumns == message.sector &&
-              within(crest.elevation_rad, -kPi / 2.0, kPi / 2.0) && crest.sd_rad > 0.0 &&
-              crest.sd_rad < kPi && within(crest.hides_from_m, 0.0, 1e6);
-    sector.columns.push_back({message.column[i], crest});
+                       .sector = message.sector,
+                       .columns = {}};
+  for (std::size_t i = 0; i < message.column.size(); ++i) {
+    sector.columns.push_back({message.column[i],
+                              {message.elevation_rad[i], message.sd_rad[i], message.hides_from_m[i],
+                               message.disagrees[i] != 0}});
   }
-  if (!is_good) return MessageRefusal::kOutOfRange;
   return sector;
 }
 

@@ -103,6 +103,7 @@ OTHER_DEVICES = [
     "wire/*_status.*",
     "wire/orders.*",
     "wire/read.h",
+    "wire/skyline.*",
     "wire/target.*",
 ]
 

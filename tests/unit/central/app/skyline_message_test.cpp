@@ -58,6 +58,7 @@ TEST(SkylineMessage, WhatNoStationSendsIsRefused) {
   EXPECT_TRUE(refuses([](auto& m) { m.sector = -1; }));
   EXPECT_TRUE(refuses([](auto& m) { m.column[0] = 7099; })) << "of the sector before";
   EXPECT_TRUE(refuses([](auto& m) { m.column[1] = 7200; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.column[1] = 7100; })) << "twice the same";
   EXPECT_TRUE(refuses([](auto& m) { m.sector = 0, m.column = {-1, 0}; }));
   EXPECT_TRUE(refuses([](auto& m) { m.elevation_rad[0] = kNan; }));
   EXPECT_TRUE(refuses([](auto& m) { m.elevation_rad[0] = 2.0F; }));
@@ -68,7 +69,8 @@ TEST(SkylineMessage, WhatNoStationSendsIsRefused) {
   EXPECT_TRUE(refuses([](auto& m) { m.camera_ecef_m[1] = kNan; }));
   EXPECT_TRUE(refuses([](auto& m) {
     m.columns = 101;
-    m.column.assign(101, 7100);
+    m.column.clear();
+    for (int i = 0; i < 101; ++i) m.column.push_back(static_cast<std::int16_t>(7100 + i));
     m.elevation_rad.assign(101, 0.0F);
     m.sd_rad.assign(101, 0.5F);
     m.hides_from_m.assign(101, 0.0F);

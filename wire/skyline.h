@@ -1,0 +1,14 @@
+// Reads a sector of a station's seen skyline; all programs use this function.
+#pragma once
+
+#include "ols_msg/skyline_t.hpp"
+
+namespace ols::wire {
+
+inline constexpr int kSkylineSectors = 72, kSkylineSectorColumns = 100;
+
+// Whether a station sends such values: no more columns than a sector has, each of this sector, in
+// ascending order and with numbers that can be true.
+bool is_skyline(const ols_msg::skyline_t& message);
+
+}  // namespace ols::wire
