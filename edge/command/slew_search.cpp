@@ -27,31 +27,26 @@ Eigen::Vector2d nearest_to_middle(const Eigen::Vector2d& pixel, const Eigen::Vec
 
 }  // namespace
 
+// Straight lines are straight in the picture, but for its distortion, which is small where the lens
+// is long.
 std::optional<SlewSearch::Expected> SlewSearch::expected(const camera::Frame& frame,
                                                          const PointingModel& pointing,
                                                          const Slew& slew) {
-  const auto unit = pointing.angles_at(frame.mid_exposure_s, frame.stamp_sd_s);
-  if (!slew || !unit) return std::nullopt;
-  return expected(frame.mid_exposure_s, unit->angles, pointing, *slew);
-}
-
-// Straight lines are straight in the picture, but for its distortion, which is small where the lens
-// is long.
-std::optional<SlewSearch::Expected> SlewSearch::expected(double time_s, const PanTilt& angles,
-                                                         const PointingModel& pointing,
-                                                         const SlewCommand& slew) {
-  const AzimuthElevation direction = direction_at(slew, time_s);
-  const auto pixel = pointing.pixel_of(angles, direction);
+  const auto angles = pointing.angles_at(frame.mid_exposure_s);
+  if (!slew || !angles) return std::nullopt;
+  const AzimuthElevation direction = direction_at(*slew, frame.mid_exposure_s);
+  const auto pixel = pointing.pixel_of(angles->angles, direction);
   if (!pixel) return std::nullopt;
-  if (!slew.searches_line()) return Expected{*pixel, angles};
+  if (!slew->searches_line()) return Expected{*pixel, angles->angles};
   constexpr double kStep_rad = 0.01;
   const auto further = pointing.pixel_of(
-      angles,
-      {direction.azimuth_rad + kStep_rad * slew.line.x() / std::cos(direction.elevation_rad),
-       direction.elevation_rad + kStep_rad * slew.line.y()});
+      angles->angles,
+      {direction.azimuth_rad + kStep_rad * slew->line.x() / std::cos(direction.elevation_rad),
+       direction.elevation_rad + kStep_rad * slew->line.y()});
   if (!further) return std::nullopt;
   const Eigen::Vector2d line = (*further - *pixel).normalized();
-  return Expected{nearest_to_middle(*pixel, line, pointing.geometry().camera), angles, line};
+  return Expected{nearest_to_middle(*pixel, line, pointing.geometry().camera), angles->angles,
+                  line};
 }
 
 std::optional<SlewSearch::Expected> SlewSearch::expected_in_picture(const camera::Frame& frame,
@@ -184,10 +179,12 @@ std::optional<cv::Rect2d> SlewSearch::look(const std::deque<camera::Frame>& fram
   }
   for (auto earlier = frames.rbegin() + 1; earlier != frames.rend(); ++earlier) {
     if (frame.mid_exposure_s - earlier->mid_exposure_s > kCompared_s) break;
-    const double then_s = earlier->mid_exposure_s;
-    const auto homography = pointing.homography(then_s, frame.mid_exposure_s);
-    const auto then = expected(then_s, now->angles, pointing, *slew);
-    if (homography && then) view.references.push_back({earlier->gray, *homography, then->pixel});
+    const auto then = expected(*earlier, pointing, slew);
+    if (!then) continue;
+    const Eigen::Matrix3d homography =
+        rotation_homography(pointing.geometry(), then->angles, now->angles);
+    const Eigen::Vector3d moved = homography * then->pixel.homogeneous();
+    view.references.push_back({earlier->gray, homography, moved.hnormalized()});
   }
   const auto box = acquisition_.look(view);
   counters_["acquisition_candidates"] += static_cast<double>(acquisition_.candidates().size());

@@ -84,9 +84,6 @@ class SlewSearch {
   };
   static std::optional<Expected> expected(const camera::Frame& frame, const PointingModel& pointing,
                                           const Slew& slew);
-  // Where the target of this instant is in a picture with these angles.
-  static std::optional<Expected> expected(double time_s, const PanTilt& angles,
-                                          const PointingModel& pointing, const SlewCommand& slew);
   static std::optional<Expected> expected_in_picture(const camera::Frame& frame,
                                                      const PointingModel& pointing,
                                                      const Slew& slew);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "geometry/angles.h"
-#include "geometry/sight.h"
 #include "tests/unit/edge/station/station_fixture.h"
 
 namespace ols::station {
@@ -57,30 +56,6 @@ TEST_F(SlewSearchTest, SendsTheTrackerToTheSlewsPixelFromTimeToTime) {
   EXPECT_TRUE(search_.send_tracker(frame(1.6), pointing_, slew()));
   search_.restart(false);
   EXPECT_TRUE(search_.send_tracker(frame(1.7), pointing_, slew())) << "a new search begins";
-}
-
-// The pictures are the same, but one is taken where the report is, the other after the newest one.
-TEST_F(SlewSearchTest, NothingMovesBetweenAReportedAndACarriedAngle) {
-  std::deque<camera::Frame> frames{frame(0.7), frame(0.9), frame(1.0)};
-  frames.back().mid_exposure_s = 1.1;
-  cv::Mat roofs(960, 1280, CV_8U, cv::Scalar(180));
-  for (int step = 0; step < 12; ++step)
-    roofs(cv::Rect(100 * step, 400 + 15 * step, 100, 560 - 15 * step)).setTo(60);
-  for (camera::Frame& one : frames) one.gray = roofs;
-  for (double from_s = 0.5; from_s < 1.05; from_s += 0.1) {
-    const PanTilt turned{from_s > 0.95 ? radians(0.2) : 0.0, 0.0};
-    camera::Frame next;
-    next.mid_exposure_s = from_s + 0.1;
-    pointing_.add({rotation_homography(pointing_.geometry(), {}, turned), {640, 480}, 0.02}, from_s,
-                  next);
-  }
-  ASSERT_EQ(pointing_.angles_at(0.9)->angles.pan_rad, 0.0);
-  ASSERT_NEAR(degrees(pointing_.angles_at(1.1)->angles.pan_rad), 0.2, 0.05);
-  SlewSearch::Slew moving = slew();
-  moving->effect_s = 1.1;
-  moving->azimuth_rate_rad_s = 600.0 / config_.geometry.camera.fx_px;
-  EXPECT_FALSE(search_.acquire(frames, std::nullopt, pointing_, moving));
-  EXPECT_EQ(search_.counters().at("acquisition_candidates"), 0.0);
 }
 
 // A detector's object, confirmed after half a second on this way.
