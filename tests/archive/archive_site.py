@@ -47,6 +47,10 @@ def filled(message: Any, chance: random.Random, utime: int) -> Any:
     if isinstance(message, ols_msg.target_t):
         message.stations, message.station, message.used = 2, ["a", "b"], [True, False]
         message.weight, message.age_s = [1.0, 0.0], [0.0, -0.1]
+    if isinstance(message, ols_msg.skyline_t):
+        message.columns, message.column, message.disagrees = 2, [0, 1], [True, False]
+        message.elevation_rad, message.sd_rad = [0.25, 0.5], [0.125, 0.0]
+        message.hides_from_m = [0.0, 1500.0]
     message.utime = utime
     return message
 
