@@ -356,6 +356,10 @@ void run_site(const land::TerrainFolder& folder, const Options& options, unsigne
               degrees(wrong.watch().heading()->error_rad), wrong.sigmas(),
               wrong.watch().disagrees() ? "noticed" : "not noticed",
               degrees(found.error_rad - own_rad), degrees(found.sd_rad));
+  // An obstacle counts only after several pictures.
+  for (int seen = 1; options.obstacles > 0 && seen < skyline::SkylineWatch::kPictures; ++seen) {
+    right.round(*panorama, 0.0);
+  }
   for (int day = 0; day < options.days; ++day) {
     if (day > 0) panorama = panorama_of(site, seed + 1000 * static_cast<unsigned>(day));
     for (int round = 0; round < options.rounds; ++round) {

@@ -40,7 +40,9 @@ std::optional<land::SeenCrest> seen_crest(const SeenPlace& seen, double elevatio
                                           const land::HorizonMap& map) {
   const auto model = uncertain_skyline(map, seen.direction.azimuth_rad);
   if (!model) return std::nullopt;
-  const double seen_rad2 = seen.variance_rad2 + elevation_sd_rad * elevation_sd_rad +
+  // At one place, an edge is found wrong in about the same way in each picture.
+  const double seen_rad2 = seen.pictures * seen.variance_rad2 +
+                           elevation_sd_rad * elevation_sd_rad +
                            std::pow(across_sd_rad(seen, map), 2);
   const double model_rad2 = model->elevation_sd_rad * model->elevation_sd_rad;
   const double above_rad = seen.direction.elevation_rad - model->elevation_rad;

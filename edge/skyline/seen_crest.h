@@ -11,11 +11,12 @@ namespace ols::skyline {
 
 // `elevation_sd_rad`: 1-sigma that the station states for its elevations.
 //
-// Where both agree within three sigmas, the mean weighted by their variances stands at the map's
-// crest. What is seen higher stands at an unknown distance: it hides what is beyond the map's
-// crest if something kTallest_m high there would reach so far up, and otherwise what is beyond the
-// farthest nearer place from which it would. What is seen lower hides nothing that the map does not
-// hide: haze may conceal the crest.
+// - Both agree within three sigmas: the crest is the mean, weighted by their variances, at the
+//   distance of the map's crest.
+// - The pictures show something higher, at an unknown distance. Suppose that it is kTallest_m high.
+//   It hides targets beyond the farthest place, up to the map's crest, where its top reaches that
+//   elevation.
+// - The pictures show something lower: it hides nothing, because haze may conceal the map's crest.
 //
 // nullopt where the map knows no land.
 std::optional<land::SeenCrest> seen_crest(const SeenPlace& seen, double elevation_sd_rad,

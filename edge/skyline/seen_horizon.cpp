@@ -7,7 +7,7 @@
 
 namespace ols::skyline {
 
-SeenHorizon::SeenHorizon() : means_(kColumns) {}
+SeenHorizon::SeenHorizon(double anew_rad) : anew_rad_(anew_rad), means_(kColumns) {}
 
 void SeenHorizon::clear() { means_.assign(kColumns, {}); }
 
@@ -45,11 +45,13 @@ void SeenHorizon::add(const std::vector<SkylinePoint>& picture, double time_s,
     const Sum& sum = sums[column];
     if (sum.count == 0) continue;
     Mean& mean = means_[column];
-    if (is_old(mean)) mean = {};
+    const double elevation_rad = sum.elevation_rad / sum.count;
+    if (is_old(mean) || std::abs(elevation_rad - mean.elevation_rad) > anew_rad_) mean = {};
+    if (mean.pictures == 0) mean.oldest_s = time_s;
     mean.newest_s = time_s;
     // Neighbouring strips err alike: their number does not make the mean better.
-    mean.add(sum.azimuth_rad / sum.count, sum.elevation_rad / sum.count,
-             sum.variance_rad2 / sum.count, azimuth_sd_rad * azimuth_sd_rad);
+    mean.add(sum.azimuth_rad / sum.count, elevation_rad, sum.variance_rad2 / sum.count,
+             azimuth_sd_rad * azimuth_sd_rad);
   }
 }
 
@@ -60,7 +62,9 @@ std::vector<SeenPlace> SeenHorizon::places() const {
     places.push_back({{mean.azimuth_rad, mean.elevation_rad},
                       std::max(mean.picture_variance_rad2, mean.scatter_rad2) / mean.pictures,
                       mean.azimuth_variance_rad2,
-                      mean.newest_s});
+                      mean.newest_s,
+                      mean.oldest_s,
+                      mean.pictures});
   }
   return places;
 }

@@ -1,6 +1,7 @@
 // The skyline as a station's pictures have shown it lately, by azimuth. Pure.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "edge/skyline/expected_skyline.h"
@@ -14,13 +15,17 @@ struct SeenPlace {
   // Of the azimuth, as the station states it. Its error may be the same at all places.
   double azimuth_variance_rad2 = 0.0;
   double newest_s = 0.0;  // time of the newest of its pictures
+  double oldest_s = 0.0;  // and of the first
+  int pictures = 1;       // as many as are averaged: SeenHorizon::kMost at most
 };
 
 // Several pictures of the same place are averaged: the noise of pictures becomes smaller, the error
 // of a model of the land does not. New pictures replace old ones, because a tripod may be knocked.
 class SeenHorizon {
  public:
-  SeenHorizon();
+  // A picture that shows a place higher or lower than its mean, by more than `anew_rad`, begins the
+  // mean anew.
+  explicit SeenHorizon(double anew_rad = std::numeric_limits<double>::infinity());
 
   // Pictures in order of their times [s]. `azimuth_sd_rad`: 1-sigma that the station states for the
   // picture's azimuths.
@@ -37,7 +42,7 @@ class SeenHorizon {
  private:
   struct Mean {
     int pictures = 0;
-    double newest_s = 0.0;
+    double newest_s = 0.0, oldest_s = 0.0;
     double azimuth_rad = 0.0, elevation_rad = 0.0;
     double picture_variance_rad2 = 0.0;
     double scatter_rad2 = 0.0;  // variance from picture to picture
@@ -46,6 +51,7 @@ class SeenHorizon {
   };
   bool is_old(const Mean& mean) const { return newest_s_ - mean.newest_s > kMemory_s; }
 
+  double anew_rad_;
   std::vector<Mean> means_;
   double newest_s_ = 0.0;
 };

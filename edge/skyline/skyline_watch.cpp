@@ -23,10 +23,17 @@ double mean_azimuth_sd_rad(const std::vector<SeenPlace>& places) {
 
 }  // namespace
 
+// At a start, before anything is seen, a change of the setup says nothing of an earlier skyline.
 void SkylineWatch::forget() {
+  if (!hiding_.crests.empty()) earlier_.reset();
+  clear();
+}
+
+void SkylineWatch::clear() {
   seen_.clear();
   obstacles_.clear();
   hiding_ = {};
+  disagreed_s_.clear();
   heading_.reset();
   disagrees_ = false;
 }
@@ -49,11 +56,8 @@ bool SkylineWatch::has_map(const StatedPicture& picture) {
   const Eigen::Vector3d& centre_ecef = picture.camera.centre_ecef;
   const double same_m = map_ ? kMoved_m : kAgain_m;
   if (place_ecef_ && (*place_ecef_ - centre_ecef).norm() <= same_m) return map_.has_value();
-  forget();
-  if (const auto earlier = std::exchange(earlier_, std::nullopt);
-      earlier && (earlier->camera_ecef - centre_ecef).norm() <= kMoved_m) {
-    hiding_ = *earlier;
-  }
+  clear();
+  resume_earlier(picture);
   place_ecef_ = centre_ecef;
   map_.reset();
   why_none_.clear();
@@ -66,6 +70,17 @@ bool SkylineWatch::has_map(const StatedPicture& picture) {
     why_none_ = reason.what();
   }
   return map_.has_value();
+}
+
+// A first fix may have been wrong: the earlier one waits until the station knows its place.
+void SkylineWatch::resume_earlier(const StatedPicture& picture) {
+  if (!earlier_ || (earlier_->camera_ecef - picture.camera.centre_ecef).norm() > kMoved_m) return;
+  hiding_ = *std::exchange(earlier_, std::nullopt);
+  for (int sector = 0; sector < land::SeenSkyline::kSectors; ++sector) {
+    for (const auto& [column, crest] : hiding_.crests.sector(sector)) {
+      if (crest.disagrees) disagreed_s_[column] = picture.mid_exposure_s;
+    }
+  }
 }
 
 // Of the camera in the map: what the station states of its position, the model as a whole, and the
@@ -90,7 +105,6 @@ void SkylineWatch::look(const StatedPicture& picture) {
   note_obstacles(picture, view, expected);
 }
 
-// An edge of a cloud that is taken for an obstacle is not the same in the next pictures.
 void SkylineWatch::note_obstacles(const StatedPicture& picture, const PictureView& view,
                                   const Rows& expected) {
   const Rows found = find_skyline(picture.gray, widely_expected(expected, view));
@@ -98,13 +112,33 @@ void SkylineWatch::note_obstacles(const StatedPicture& picture, const PictureVie
   for (const SeenPlace& place : obstacles_.places()) {
     if (place.newest_s < picture.mid_exposure_s) continue;
     const auto crest = seen_crest(place, picture.elevation_sd_rad, *map_);
-    if (!crest) continue;
-    if (hiding_.crests.empty()) {
-      hiding_.begun_us = picture.utime_us;
-      hiding_.camera_ecef = picture.camera.centre_ecef;
-    }
-    hiding_.crests.set(land::SeenSkyline::column_of(place.direction.azimuth_rad), *crest);
+    if (crest) take(place, *crest, picture);
   }
+  remove_old(picture.mid_exposure_s);
+}
+
+void SkylineWatch::take(const SeenPlace& place, const land::SeenCrest& crest,
+                        const StatedPicture& picture) {
+  const int column = land::SeenSkyline::column_of(place.direction.azimuth_rad);
+  if (crest.disagrees) {
+    if (place.pictures < kPictures || place.newest_s - place.oldest_s < kApart_s) return;
+    disagreed_s_[column] = place.newest_s;
+  } else {
+    disagreed_s_.erase(column);
+  }
+  if (hiding_.crests.empty()) {
+    hiding_.begun_us = picture.utime_us;
+    hiding_.camera_ecef = picture.camera.centre_ecef;
+  }
+  hiding_.crests.set(column, crest);
+}
+
+void SkylineWatch::remove_old(double now_s) {
+  std::erase_if(disagreed_s_, [&](const auto& column) {
+    const bool is_old = now_s - column.second > kKept_s;
+    if (is_old) hiding_.crests.remove(column.first);
+    return is_old;
+  });
 }
 
 void SkylineWatch::compare(const StatedPicture& newest) {

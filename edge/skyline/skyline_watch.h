@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -57,9 +58,11 @@ class SkylineWatch {
   // stated.
   double difference_sd_rad() const;
   bool disagrees() const { return disagrees_; }
-  // Each column as it was seen last, however long ago. Nothing has been seen while it is empty.
+  // Each column as it was seen last. What disagrees with the land counts only once kPictures have
+  // shown it at the same elevation over kApart_s, until a picture shows the land there, or for
+  // kKept_s. Nothing has been seen while it is empty.
   const HidingSkyline& hiding() const { return hiding_; }
-  // Goes on with an earlier one, if the next picture is taken at its place.
+  // Goes on with an earlier one as soon as a picture is taken at its place.
   void resume(HidingSkyline earlier) { earlier_ = std::move(earlier); }
 
   // The heading is wrong, or the land does not fit the station; empty if neither.
@@ -68,13 +71,21 @@ class SkylineWatch {
   static constexpr double kMoved_m = 5.0;
   // While the land does not fit, the next place is tried sooner: a first fix may have been wrong.
   static constexpr double kAgain_m = 0.5;
+  // The edge of a cloud moves meanwhile.
+  static constexpr int kPictures = 3;
+  static constexpr double kApart_s = 120.0, kSame_rad = radians(0.2);
+  static constexpr double kKept_s = 86'400.0;
 
  private:
+  void clear();
   bool has_map(const StatedPicture& picture);
+  void resume_earlier(const StatedPicture& picture);
   Geodetic camera_of_map(const Geodetic& stated, double height_sd_m) const;
   Eigen::Vector3d place_sd_enu_m(const StatedPicture& picture) const;
   void compare(const StatedPicture& newest);
   void note_obstacles(const StatedPicture& picture, const PictureView& view, const Rows& expected);
+  void take(const SeenPlace& place, const land::SeenCrest& crest, const StatedPicture& picture);
+  void remove_old(double now_s);
 
   std::shared_ptr<const land::Surface> surface_;
   land::HorizonMapConfig config_;
@@ -84,8 +95,9 @@ class SkylineWatch {
   std::string why_none_;
   double model_sd_m_ = 0.0;  // of the model as a whole
   SeenHorizon seen_;
-  SeenHorizon obstacles_;  // as above, but searched farther from the map's skyline
+  SeenHorizon obstacles_{kSame_rad};  // as above, but searched farther from the map's skyline
   HidingSkyline hiding_;
+  std::map<int, double> disagreed_s_;  // when the columns that disagree were seen last
   std::optional<HidingSkyline> earlier_;
   std::optional<SkylineHeading> heading_;
   double stated_sd_rad_ = 0.0;  // of the azimuths that `heading_` is from

@@ -12,6 +12,7 @@ namespace ols::skyline {
 namespace {
 
 constexpr double kWrong_rad = radians(0.3);
+constexpr double kHigh_rad = radians(1.5);  // of an obstacle above the land
 
 CameraIntrinsics wide_camera() {
   CameraIntrinsics camera;
@@ -94,6 +95,14 @@ class SkylineWatchTest : public ::testing::Test {
       return is_there && skyline ? skyline->elevation_rad + high_rad : -0.5;
     });
   }
+  // In the direction of 100 degrees, until it counts.
+  void see_obstacle() {
+    build(100.0, 2.0, kHigh_rad);
+    for (int picture = 0; picture < SkylineWatch::kPictures; ++picture) {
+      look(100.0, {site_.camera()});
+      time_s_ += SkylineWatch::kApart_s / 2.0;
+    }
+  }
   std::optional<land::SeenCrest> crest(double azimuth_deg) const {
     return watch_.hiding().crests.at(radians(azimuth_deg));
   }
@@ -170,19 +179,54 @@ TEST_F(SkylineWatchTest, AnAlarmEndsWithWhatItIsFrom) {
 }
 
 TEST_F(SkylineWatchTest, WhatNoModelHasIsSeenAndHides) {
-  constexpr double kHigh_rad = radians(1.5);
   look(100.0, {site_.camera()});
   ASSERT_TRUE(crest(100.0));
   EXPECT_FALSE(crest(100.0)->disagrees);
   EXPECT_GT(crest(100.0)->hides_from_m, 0.0);
   build(100.0, 2.0, kHigh_rad);
-  for (int i = 0; i < 16; ++i) look(100.0, {site_.camera()});
+  for (int i = 0; i < 30; ++i) look(100.0, {site_.camera()});
   const double truth_rad = truth_.skyline(radians(100.0))->elevation_rad + kHigh_rad;
   EXPECT_NEAR(crest(100.0)->elevation_rad, truth_rad, radians(0.1));
   EXPECT_TRUE(crest(100.0)->disagrees);
   EXPECT_GT(crest(100.0)->hides_from_m, 0.0);
   EXPECT_LE(crest(100.0)->hides_from_m, truth_.skyline(radians(100.0))->distance_m * 1.05);
   EXPECT_FALSE(crest(97.0)->disagrees);
+}
+
+// A cloud above the skyline is such a thing: its edge stays nowhere.
+TEST_F(SkylineWatchTest, WhatIsHigherHidesOnlyAfterThreePicturesInTwoMinutes) {
+  look(100.0, {site_.camera()});
+  build(100.0, 2.0, kHigh_rad);
+  for (int picture = 0; picture < 4; ++picture) look(100.0, {site_.camera()});
+  EXPECT_FALSE(crest(100.0)->disagrees) << "four within seconds";
+  time_s_ += SkylineWatch::kApart_s;
+  look(100.0, {site_.camera()});
+  EXPECT_TRUE(crest(100.0)->disagrees);
+}
+
+TEST_F(SkylineWatchTest, WhatIsHigherHidesNothingWhereEachPictureShowsItElsewhere) {
+  for (int picture = 0; picture < 4; ++picture) {
+    build(100.0, 2.0, kHigh_rad + radians(0.3) * picture - radians(1.0));
+    look(100.0, {site_.camera()});
+    time_s_ += SkylineWatch::kApart_s;
+    EXPECT_FALSE(crest(100.0)) << picture;
+  }
+}
+
+TEST_F(SkylineWatchTest, WhatIsHigherIsKeptForADayOrUntilTheLandIsSeenThere) {
+  const sim::Panorama land = panorama_;
+  see_obstacle();
+  time_s_ += 0.9 * SkylineWatch::kKept_s;
+  look(200.0, {site_.camera()});
+  EXPECT_TRUE(crest(100.0));
+  time_s_ += 0.2 * SkylineWatch::kKept_s;
+  look(200.0, {site_.camera()});
+  EXPECT_FALSE(crest(100.0));
+  see_obstacle();
+  ASSERT_TRUE(crest(100.0)->disagrees);
+  panorama_ = land;
+  look(100.0, {site_.camera()});
+  EXPECT_FALSE(crest(100.0)->disagrees);
 }
 
 TEST_F(SkylineWatchTest, WhatHasBeenSeenIsKeptUntilItIsForgottenOrTheStationMoves) {
@@ -208,11 +252,22 @@ TEST_F(SkylineWatchTest, AnEarlierSkylineIsResumedOnlyAtItsPlace) {
   for (const double away_m : {0.0, 20.0}) {
     watch_ = SkylineWatch(std::make_shared<land::MadeLand>(site_.model()), quick_map());
     watch_.resume(earlier);
-    watch_.forget();  // as at a start, when the mount's reference becomes known
+    watch_.forget();                      // as at a start, when the mount's reference becomes known
+    look(100.0, {.place = moved(50.0)});  // a first fix
     look(200.0, {.place = moved(away_m)});
     EXPECT_EQ(crest(100.0).has_value(), away_m == 0.0);
     EXPECT_TRUE(crest(200.0));
   }
+}
+
+TEST_F(SkylineWatchTest, AnEarlierSkylineIsNotResumedOnceThatOfAnotherSetupIsForgotten) {
+  look(100.0, {site_.camera()});
+  const HidingSkyline earlier = watch_.hiding();
+  watch_.resume(earlier);
+  look(200.0, {.place = moved(50.0)});
+  watch_.forget();
+  look(200.0, {site_.camera()});
+  EXPECT_FALSE(crest(100.0));
 }
 
 TEST_F(SkylineWatchTest, APlaceUnderTheGroundIsSaid) {
