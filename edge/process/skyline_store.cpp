@@ -50,11 +50,13 @@ std::optional<skyline::HidingSkyline> SkylineStore::take_found(const skyline::Sk
 void SkylineStore::keep(const skyline::SavedSkyline& saved, double now_s) {
   if (saved.skyline.crests.empty() || (kept_s_ && now_s - *kept_s_ < kInterval_s)) return;
   kept_s_ = now_s;
+  dropped_ = false;
   refused_ = {};
   file_.write(to_text(saved));
 }
 
 void SkylineStore::drop(const skyline::SkylineOwner& owner) {
+  if (std::exchange(dropped_, true)) return;
   kept_s_.reset();
   file_.write(skyline::to_text({owner, {}}));
 }

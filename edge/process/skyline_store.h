@@ -19,7 +19,7 @@ class SkylineStore {
   std::optional<skyline::HidingSkyline> take_found(const skyline::SkylineOwner& owner);
   // Writes it every few minutes [monotonic s], without waiting for the disk.
   void keep(const skyline::SavedSkyline& saved, double now_s);
-  // What is saved is no longer valid.
+  // What is saved is no longer valid. Calls after the first one do nothing until keep().
   void drop(const skyline::SkylineOwner& owner);
   // Why the file was not used, until a skyline has been saved, or why it cannot be written; empty
   // if there is no trouble.
@@ -32,6 +32,7 @@ class SkylineStore {
   std::optional<skyline::SavedSkyline> found_;
   Alarm refused_;
   std::optional<double> kept_s_;
+  bool dropped_ = false;
   BackgroundFile file_;
 };
 

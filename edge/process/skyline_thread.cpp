@@ -31,14 +31,15 @@ void SkylineThread::give(skyline::StatedPicture picture) {
   arrived_.notify_one();
 }
 
-void SkylineThread::follow(int setup, std::int64_t calibration_id) {
+void SkylineThread::follow(int setup, const skyline::SkylineOwner& owner) {
   const std::lock_guard lock(mutex_);
-  owner_.calibration_id = calibration_id;
+  owner_ = owner;
   if (std::exchange(setup_, setup) == setup || !has_land_) return;
   if (std::exchange(picture_, std::nullopt)) works_ = false;
   forgets_ = true;
   alarm_ = {};
   seen_.reset();
+  arrived_.notify_one();
 }
 
 std::vector<Alarm> SkylineThread::alarms() const {
@@ -85,7 +86,12 @@ void SkylineThread::look(const skyline::StatedPicture& picture,
     alarm = alarm::skyline_not_compared(wrong.what());
   }
   auto seen = std::make_shared<const skyline::HidingSkyline>(watch_->hiding());
-  store_.keep({owner, *seen}, picture.mid_exposure_s);
+  // After a restart, nobody would know at first that the heading is wrong.
+  if (watch_->disagrees()) {
+    store_.drop(owner);
+  } else {
+    store_.keep({owner, *seen}, picture.mid_exposure_s);
+  }
   const std::lock_guard lock(mutex_);
   store_alarm_ = store_.trouble();
   if (!forgets_) {
@@ -107,14 +113,14 @@ void SkylineThread::work(const std::stop_token& stop, const std::string& folder)
   device::go_behind_control_loop();
   if (!read_land(stop, folder)) return;
   std::unique_lock lock(mutex_);
-  while (arrived_.wait(lock, stop, [this] { return picture_.has_value(); }) &&
-         !stop.stop_requested()) {
-    const skyline::StatedPicture picture = *std::exchange(picture_, std::nullopt);
+  // What is to be forgotten is forgotten even at a stop: the file is of the setup before.
+  while (arrived_.wait(lock, stop, [this] { return picture_ || forgets_; })) {
+    const auto picture = std::exchange(picture_, std::nullopt);
     const skyline::SkylineOwner owner = owner_;
     const bool forgets = std::exchange(forgets_, false);
     lock.unlock();
     if (forgets) forget(owner);
-    look(picture, owner);
+    if (picture && !stop.stop_requested()) look(*picture, owner);
     lock.lock();
   }
 }

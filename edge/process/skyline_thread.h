@@ -34,7 +34,7 @@ class SkylineThread {
   // Never waits. Call it only if wants() says so.
   void give(skyline::StatedPicture picture);
   // `setup`: Station::setup_revision(). If it has changed, all that has been seen is forgotten.
-  void follow(int setup, std::int64_t calibration_id);
+  void follow(int setup, const skyline::SkylineOwner& owner);
   std::vector<Alarm> alarms() const;
   // A part of the seen skyline, once a second; nullopt while none is due, or no land is known.
   std::optional<skyline::SkylinePart> next_part(double now_s);

@@ -22,6 +22,11 @@ std::string skyline_file(const StationSettings& settings) {
   return settings.state_folder + "/" + settings.id + ".skyline";
 }
 
+skyline::SkylineOwner skyline_owner(const StationSettings& settings) {
+  return {settings.id, settings.calibration_id,
+          skyline::chain_hash(settings.station.geometry.chain)};
+}
+
 // A receiver without a first fix stays in the state "starting"; the station needs only camera and
 // PTU.
 gpio::LedPattern led_pattern(const StationReport& report) {
@@ -66,8 +71,7 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
   const DetectionConfig& detection = settings().station.detection;
   if (detection.enabled) detector_.emplace(detection.detector);
   if (!settings().land_folder.empty()) {
-    skyline_.emplace(settings().land_folder, skyline_file(settings()),
-                     skyline::SkylineOwner{settings().id, settings().calibration_id});
+    skyline_.emplace(settings().land_folder, skyline_file(settings()), skyline_owner(settings()));
   }
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_->pose(now_s));
@@ -215,7 +219,7 @@ void StationProcess::detect(double now_s) {
 
 void StationProcess::compare_skyline(double now_s) {
   if (!skyline_) return;
-  skyline_->follow(station_.setup_revision(), settings().calibration_id);
+  skyline_->follow(station_.setup_revision(), skyline_owner(settings()));
   if (const auto part = skyline_->next_part(now_s)) bus_.send(*part);
   if (!skyline_->wants(now_s)) return;
   auto picture = station_.skyline_picture();

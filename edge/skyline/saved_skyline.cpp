@@ -1,12 +1,13 @@
 #include "edge/skyline/saved_skyline.h"
 
+#include <charconv>
 #include <cinttypes>
 #include <cmath>
-#include <cstdio>
 #include <locale>
 #include <sstream>
 
 #include "base/files/fnv1a.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::skyline {
@@ -15,14 +16,7 @@ namespace {
 constexpr std::string_view kHead = "ols-skyline 1\n";
 constexpr std::string_view kSum = "sum ";
 
-template <class... Values>
-std::string words(const char* format, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
-std::string sum_line(std::string_view text) { return words("sum %016" PRIx64 "\n", fnv1a(text)); }
+std::string sum_line(std::string_view text) { return printed("sum %016" PRIx64 "\n", fnv1a(text)); }
 
 // Whether the line has exactly these values, after `name` if it is not empty.
 template <class... Values>
@@ -33,6 +27,14 @@ bool read_line(std::istream& lines, const char* name, Values&... values) {
   stream.imbue(std::locale::classic());
   if (*name != '\0' && !(stream >> word && word == name)) return false;
   return (stream >> ... >> values) && !(stream >> word);
+}
+
+bool read_hex(std::istream& lines, const char* name, std::uint64_t& value) {
+  constexpr int kHex = 16;
+  std::string word;
+  if (!read_line(lines, name, word)) return false;
+  const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value, kHex);
+  return failed == std::errc() && end == word.data() + word.size();
 }
 
 bool read_column(std::istream& lines, int after, land::SeenSkyline& crests, int& column) {
@@ -52,19 +54,29 @@ bool read_column(std::istream& lines, int after, land::SeenSkyline& crests, int&
 
 }  // namespace
 
+std::uint64_t chain_hash(const ChainParameters& chain) {
+  std::string text;
+  for (const double angle_rad : {chain.heading_rad, chain.tilt_x_rad, chain.tilt_y_rad,
+                                 chain.trunnion_rad, chain.mount_z_rad, chain.mount_x_rad,
+                                 chain.mount_y_rad, chain.pan_zero_rad, chain.tilt_zero_rad}) {
+    text += printed("%.6f ", angle_rad);
+  }
+  return fnv1a(text + printed("%d %d", chain.pan_sign, chain.tilt_sign));
+}
+
 std::string to_text(const SavedSkyline& saved) {
   const HidingSkyline& skyline = saved.skyline;
   std::string text(kHead);
   text += "station " + saved.owner.station + "\n";
-  text += words("calibration %" PRId64 "\nbegun %" PRId64 "\n", saved.owner.calibration_id,
-                skyline.begun_us);
-  text += words("camera %.3f %.3f %.3f\n", skyline.camera_ecef.x(), skyline.camera_ecef.y(),
-                skyline.camera_ecef.z());
+  text += printed("calibration %" PRId64 "\nchain %016" PRIx64 "\nbegun %" PRId64 "\n",
+                  saved.owner.calibration_id, saved.owner.chain, skyline.begun_us);
+  text += printed("camera %.3f %.3f %.3f\n", skyline.camera_ecef.x(), skyline.camera_ecef.y(),
+                  skyline.camera_ecef.z());
   for (int sector = 0; sector < land::SeenSkyline::kSectors; ++sector) {
     for (const auto& [column, crest] : skyline.crests.sector(sector)) {
-      text +=
-          words("%d %.5f %.5f %.1f %d\n", column, degrees(crest.elevation_rad),
-                std::max(1e-5, degrees(crest.sd_rad)), crest.hides_from_m, crest.disagrees ? 1 : 0);
+      text += printed("%d %.5f %.5f %.1f %d\n", column, degrees(crest.elevation_rad),
+                      std::max(1e-5, degrees(crest.sd_rad)), crest.hides_from_m,
+                      crest.disagrees ? 1 : 0);
     }
   }
   return text + sum_line(text);
@@ -83,6 +95,7 @@ std::variant<SavedSkyline, std::string> saved_skyline_from(std::string_view text
   int line = 2;
   const bool has_head = read_line(lines, "station", saved.owner.station) && ++line > 0 &&
                         read_line(lines, "calibration", saved.owner.calibration_id) && ++line > 0 &&
+                        read_hex(lines, "chain", saved.owner.chain) && ++line > 0 &&
                         read_line(lines, "begun", saved.skyline.begun_us) && ++line > 0 &&
                         read_line(lines, "camera", camera.x(), camera.y(), camera.z()) &&
                         ++line > 0;
@@ -101,6 +114,7 @@ std::string why_not_used(const SavedSkyline& saved, const SkylineOwner& owner) {
     return "is of calibration " + std::to_string(saved.owner.calibration_id) + ", not of " +
            std::to_string(owner.calibration_id);
   }
+  if (saved.owner.chain != owner.chain) return "is of another heading, tilt or mounting";
   return {};
 }
 

@@ -3,6 +3,7 @@
 //   ols-skyline 1
 //   station ID
 //   calibration ID
+//   chain HEX                             (chain_hash(), 64 bits)
 //   begun UTIME_us
 //   camera X_m Y_m Z_m                    (ECEF)
 //   COLUMN ELEVATION_deg SD_deg HIDES_FROM_m DISAGREES
@@ -16,16 +17,22 @@
 #include <variant>
 
 #include "edge/skyline/skyline_watch.h"
+#include "geometry/kinematic_chain.h"
 
 namespace ols::skyline {
 
-// Directions are comparable only from one station with one calibration.
+// Directions are comparable only from one station with one calibration and geometry: an operator
+// may change the configured heading and keep the calibration.
 struct SkylineOwner {
   std::string station;
   std::int64_t calibration_id = 0;
+  std::uint64_t chain = 0;  // chain_hash()
 
   bool operator==(const SkylineOwner&) const = default;
 };
+
+// Of heading, tilt, mounting and encoders, each to the microradian.
+std::uint64_t chain_hash(const ChainParameters& chain);
 
 struct SavedSkyline {
   SkylineOwner owner;

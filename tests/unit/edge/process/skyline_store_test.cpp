@@ -10,7 +10,7 @@
 namespace ols::station {
 namespace {
 
-const skyline::SkylineOwner kOwner{"alfa", 4711};
+const skyline::SkylineOwner kOwner{"alfa", 4711, 17};
 
 skyline::SavedSkyline saved(double elevation_rad = 0.125) {
   skyline::SavedSkyline saved{kOwner, {}};
@@ -63,6 +63,8 @@ TEST_F(SkylineStoreTest, IsWrittenEveryFewMinutes) {
   EXPECT_TRUE(holds(skyline::to_text({kOwner, {}})));
   store.keep(saved(0.4), 101.0 + SkylineStore::kInterval_s);
   EXPECT_TRUE(holds(to_text(saved(0.4)))) << "what is seen anew is saved at once";
+  store.drop(kOwner);
+  EXPECT_TRUE(holds(skyline::to_text({kOwner, {}}))) << "once more";
 }
 
 TEST_F(SkylineStoreTest, WhatCannotBeUsedIsNamedUntilAnotherIsSaved) {
@@ -73,10 +75,10 @@ TEST_F(SkylineStoreTest, WhatCannotBeUsedIsNamedUntilAnotherIsSaved) {
   EXPECT_TRUE(eventually([&] { return damaged.trouble().empty(); }));
   ASSERT_TRUE(holds(to_text(saved())));
   SkylineStore later(file_);
-  EXPECT_FALSE(later.take_found({"alfa", 4712}));
+  EXPECT_FALSE(later.take_found({"alfa", 4712, 17}));
   EXPECT_EQ(later.trouble(), begins_with("is of calibration 4711, not of 4712"));
   SkylineStore other(file_);
-  EXPECT_FALSE(other.take_found({"bravo", 4711}));
+  EXPECT_FALSE(other.take_found({"bravo", 4711, 17}));
   EXPECT_EQ(other.trouble(), begins_with("is of station alfa"));
 }
 

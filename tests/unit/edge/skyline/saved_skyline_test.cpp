@@ -11,7 +11,7 @@
 namespace ols::skyline {
 namespace {
 
-const SkylineOwner kOwner{"alfa", 4711};
+const SkylineOwner kOwner{"alfa", 4711, 0xfedcba9876543210U};
 
 SavedSkyline saved() {
   SavedSkyline saved{kOwner, {}};
@@ -56,8 +56,24 @@ TEST(SavedSkyline, IsReadAsItWasWritten) {
 }
 
 TEST(SavedSkyline, AnotherStationsAndAnotherCalibrationsAreNotUsed) {
-  EXPECT_EQ(why_not_used(saved(), {"bravo", 4711}), "is of station alfa");
-  EXPECT_EQ(why_not_used(saved(), {"alfa", 4712}), "is of calibration 4711, not of 4712");
+  EXPECT_EQ(why_not_used(saved(), {"bravo", 4711, kOwner.chain}), "is of station alfa");
+  EXPECT_EQ(why_not_used(saved(), {"alfa", 4712, kOwner.chain}),
+            "is of calibration 4711, not of 4712");
+  EXPECT_EQ(why_not_used(saved(), {"alfa", 4711, 1}), "is of another heading, tilt or mounting");
+}
+
+TEST(SavedSkyline, AnotherHeadingTiltOrMountingIsAnotherChain) {
+  const auto differs = [](const auto& change) {
+    ChainParameters chain;
+    change(chain);
+    return chain_hash(chain) != chain_hash({});
+  };
+  EXPECT_FALSE(differs([](auto&) {}));
+  EXPECT_TRUE(differs([](auto& c) { c.heading_rad = radians(0.01); }));
+  EXPECT_TRUE(differs([](auto& c) { c.tilt_x_rad = radians(0.01); }));
+  EXPECT_TRUE(differs([](auto& c) { c.mount_y_rad = radians(0.01); }));
+  EXPECT_TRUE(differs([](auto& c) { c.pan_zero_rad = radians(0.01); }));
+  EXPECT_TRUE(differs([](auto& c) { c.pan_sign = -1; }));
 }
 
 TEST(SavedSkyline, WhatIsDamagedIsNamed) {
@@ -73,16 +89,17 @@ TEST(SavedSkyline, WhatIsDamagedIsNamed) {
   const std::string is_not = ": is not that of a saved skyline";
   EXPECT_EQ(refusal_of(with("1.5", "1.6")), "");
   EXPECT_EQ(refusal_of(with("alfa", "alfa bravo")), "line 2" + is_not);
-  EXPECT_EQ(refusal_of(with("begun", "ended")), "line 4" + is_not);
-  EXPECT_EQ(refusal_of(with("4000000.000 ", "")), "line 5" + is_not);
-  EXPECT_EQ(refusal_of(with("1.50000", "nan")), "line 6" + is_not);
-  EXPECT_EQ(refusal_of(with("1.50000", "91")), "line 6" + is_not);
-  EXPECT_EQ(refusal_of(with("0.01000", "0.0")), "line 6" + is_not);
-  EXPECT_EQ(refusal_of(with("2000.0", "-1")), "line 6" + is_not);
-  EXPECT_EQ(refusal_of(with("7199", "7200")), "line 7" + is_not);
-  EXPECT_EQ(refusal_of(with("7199", "0")), "line 7" + is_not) << "twice";
-  EXPECT_EQ(refusal_of(with("0.0 1\n", "0.0 2\n")), "line 7" + is_not);
-  EXPECT_EQ(refusal_of(with("0.0 1\n", "0.0\n")), "line 7" + is_not);
+  EXPECT_EQ(refusal_of(with("chain fedc", "chain xedc")), "line 4" + is_not);
+  EXPECT_EQ(refusal_of(with("begun", "ended")), "line 5" + is_not);
+  EXPECT_EQ(refusal_of(with("4000000.000 ", "")), "line 6" + is_not);
+  EXPECT_EQ(refusal_of(with("1.50000", "nan")), "line 7" + is_not);
+  EXPECT_EQ(refusal_of(with("1.50000", "91")), "line 7" + is_not);
+  EXPECT_EQ(refusal_of(with("0.01000", "0.0")), "line 7" + is_not);
+  EXPECT_EQ(refusal_of(with("2000.0", "-1")), "line 7" + is_not);
+  EXPECT_EQ(refusal_of(with("7199", "7200")), "line 8" + is_not);
+  EXPECT_EQ(refusal_of(with("7199", "0")), "line 8" + is_not) << "twice";
+  EXPECT_EQ(refusal_of(with("0.0 1\n", "0.0 2\n")), "line 8" + is_not);
+  EXPECT_EQ(refusal_of(with("0.0 1\n", "0.0\n")), "line 8" + is_not);
 }
 
 }  // namespace
