@@ -150,11 +150,21 @@ def test_a_running_station_is_asked_and_left_alone(devices):
     listener.wait(well, "camera and PTU of alfa", 60.0)
     before = listener.wait_for_status("alfa")
     bundle = folder / "bundle.tar.gz"
-    diagnosis = Diagnosis("--config", config, "--bundle", bundle)
+    asked = ("station", "camera", "ptu", "bus", "fusion")
+    diagnosis = None
+
+    def is_well():
+        """A busy machine delays what its devices answer, and the doctor says so."""
+        nonlocal diagnosis
+        bundle.unlink(missing_ok=True)
+        diagnosis = Diagnosis("--config", config, "--bundle", bundle)
+        verdicts = [(subject, diagnosis.of(subject)[0]) for subject in asked]
+        print([found for found in verdicts if found[1]["verdict"] != "ok"])
+        return all(found["verdict"] in ("ok", "warn") for _, found in verdicts)
+
+    listener.wait(is_well, "a diagnosis without a failure", 60.0)
     with tarfile.open(bundle) as packed:
         assert b"station    alfa, boot" in packed.extractfile("./statuses.txt").read()
-    for subject in ("station", "camera", "ptu", "bus", "fusion"):
-        assert diagnosis.of(subject)[0]["verdict"] in ("ok", "warn"), diagnosis.findings
     assert "alfa runs" in diagnosis.of("station")[0]["what"]
     after = listener.wait_for_status("alfa")
     assert after.boot_id == before.boot_id
