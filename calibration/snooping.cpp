@@ -35,14 +35,45 @@ VectorXd scale_of(const MatrixXd& C) {
   return C.diagonal().unaryExpr([](double v) { return v > 0.0 ? std::sqrt(v) : 1.0; });
 }
 
+// A = U U' and g = U h: two columns for a sighting of dozens of parameters, as many as A has rank.
+struct Root {
+  MatrixXd U;
+  VectorXd h;
+};
+
+// Of the equations of a group, by Cholesky's decomposition with the largest pivot first. The
+// numbers are of many orders: they are compared by the deviations of the parameters, of the
+// covariance C.
+Root root_of(const BlockEquations& group, const MatrixXd& C) {
+  const VectorXd scale = scale_of(C);
+  MatrixXd A = scale.asDiagonal() * group.information * scale.asDiagonal();
+  VectorXd g = scale.asDiagonal() * group.gradient;
+  const Index size = A.rows();
+  Root root{MatrixXd(size, size), VectorXd(size)};
+  const double least =
+      static_cast<double>(size) * std::numeric_limits<double>::epsilon() * A.diagonal().maxCoeff();
+  Index rank = 0, k = 0;
+  while (rank < size && A.diagonal().maxCoeff(&k) > least) {
+    root.U.col(rank) = A.col(k) / std::sqrt(A(k, k));
+    root.h[rank] = g[k] / root.U(k, rank);
+    A.noalias() -= root.U.col(rank) * root.U.col(rank).transpose();
+    g -= root.h[rank] * root.U.col(rank);
+    ++rank;
+  }
+  return {scale.cwiseInverse().asDiagonal() * root.U.leftCols(rank), root.h.head(rank)};
+}
+
+// g' (N + U S U')^-1 g with the covariance C of N, the signs S and g = U h, by Woodbury's identity.
+double squares_of(const MatrixXd& C, const Root& root, const VectorXd& signs) {
+  const MatrixXd K = root.U.transpose() * (C * root.U);
+  const MatrixXd M = MatrixXd(signs.asDiagonal()) + K;
+  return root.h.dot(K * M.partialPivLu().solve(signs.cwiseProduct(root.h)));
+}
+
 // squares - sign g' (N + sign N_g)^-1 g with the covariance C of N; sign -1 leaves the group out.
 double change_of_misfit(const MatrixXd& C, const BlockEquations& group, double sign) {
-  const VectorXd scale = scale_of(C);
-  const MatrixXd Cs = scale.cwiseInverse().asDiagonal() * C * scale.cwiseInverse().asDiagonal();
-  const MatrixXd A = scale.asDiagonal() * group.information * scale.asDiagonal();
-  const VectorXd g = scale.asDiagonal() * group.gradient;
-  const MatrixXd M = MatrixXd::Identity(C.rows(), C.rows()) + sign * A * Cs;
-  return group.squares - sign * g.dot(Cs * M.partialPivLu().solve(g));
+  const Root root = root_of(group, C);
+  return group.squares - sign * squares_of(C, root, VectorXd::Constant(root.h.size(), sign));
 }
 
 // The prior covariance with the heading known to some degrees: for the agreement of groups with a
@@ -249,11 +280,15 @@ double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t 
 
 double replacement_statistic(const Fit& fit, const BlockEquations& now,
                              const BlockEquations& then) {
-  BlockEquations difference;
-  difference.information = now.information - then.information;
-  difference.gradient = now.gradient - then.gradient;
-  difference.squares = now.squares - then.squares;
-  return change_of_misfit(part_of(fit.covariance, now.columns), difference, -1.0);
+  const MatrixXd C = part_of(fit.covariance, now.columns);
+  const Root in = root_of(then, C), out = root_of(now, C);
+  Root both{MatrixXd(in.U.rows(), in.U.cols() + out.U.cols()),
+            VectorXd(in.h.size() + out.h.size())};
+  both.U << in.U, out.U;
+  both.h << -in.h, out.h;
+  VectorXd signs = VectorXd::Ones(both.h.size());
+  signs.tail(out.h.size()) *= -1.0;
+  return now.squares - then.squares + squares_of(C, both, signs);
 }
 
 Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
