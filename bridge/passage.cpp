@@ -29,14 +29,13 @@ std::string regex_of(const std::vector<std::string>& names) {
   return regex + ")";
 }
 
-// A boot numbers its bearings, statuses and replies separately, and one stream holds them all.
+// A boot numbers its messages of each kind separately, and one stream holds several kinds.
 std::string id_of(const Content& content, const trust::MessageHead& head) {
   const std::string who = content.kind == Kind::kTarget ? "target" : content.station;
   const std::string id =
       who + ":" + std::to_string(head.boot_id) + ":" + std::to_string(head.sequence);
-  return content.kind == Kind::kStatus  ? id + ":status"
-         : content.kind == Kind::kReply ? id + ":reply"
-                                        : id;
+  const std::string_view word = report_word(content.kind);
+  return word.empty() || content.kind == Kind::kBearing ? id : id + ":" + std::string(word);
 }
 
 // A bridge's word: the name of a fusion with its start, or a number.
@@ -249,9 +248,8 @@ Passage::Judged Passage::judge_in(std::string_view text, const Headers& headers,
     const Judged refusal = judge_age(content, head, now);
     return refusal ? refusal : obey(*subject, headers, now);
   }
-  const char* const kind = subject->kind == Kind::kBearing ? ""
-                           : subject->kind == Kind::kReply ? " (reply)"
-                                                           : " (status)";
+  const std::string kind =
+      subject->kind == Kind::kBearing ? "" : " (" + std::string(report_word(subject->kind)) + ")";
   gaps_.hear(subject->station + kind, head.boot_id, head.sequence, now.monotonic_s);
   return judge_age(content, head, now);
 }
@@ -290,7 +288,7 @@ std::string Passage::channels() const {
     wanted.append(wanted.empty() ? "" : "|").append(more);
   };
   if (config_.role == Role::kSite) {
-    add("OLS_(BEARING|STATUS|REPLY)_" + regex_of(config_.stations));
+    add("OLS_(BEARING|STATUS|REPLY|SKYLINE)_" + regex_of(config_.stations));
     return wanted;
   }
   for (const std::string& command : config_.commands) {
@@ -304,9 +302,7 @@ std::vector<std::string> Passage::subjects() const {
   std::vector<std::string> wanted;
   for (const Selection& one : config_.takes) {
     const std::string station = "ols.v1." + one.region + "." + one.site + "." + one.station;
-    wanted.push_back(station + ".bearing");
-    wanted.push_back(station + ".status");
-    wanted.push_back(station + ".reply");
+    for (const std::string& report : reports()) wanted.push_back(station + "." + report);
   }
   if (config_.role == Role::kRegion) return wanted;
   for (const std::string& command : config_.commands) {

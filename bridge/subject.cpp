@@ -27,9 +27,10 @@ struct Report {
   Kind kind;
   std::string_view channel, word;
 };
-constexpr std::array<Report, 3> kReports{{{Kind::kBearing, kBearingChannel, "bearing"},
+constexpr std::array<Report, 4> kReports{{{Kind::kBearing, kBearingChannel, "bearing"},
                                           {Kind::kStatus, kStatusChannel, "status"},
-                                          {Kind::kReply, kReplyChannel, "reply"}}};
+                                          {Kind::kReply, kReplyChannel, "reply"},
+                                          {Kind::kSkyline, kSkylineChannel, "skyline"}}};
 
 std::vector<std::string_view> parts_of(std::string_view text) {
   std::vector<std::string_view> parts;
@@ -53,6 +54,20 @@ bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= kLongestName &&
          std::ranges::all_of(
              text, [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; });
+}
+
+const std::vector<std::string>& reports() {
+  static const std::vector<std::string> kWords = [] {
+    std::vector<std::string> words;
+    for (const Report& report : kReports) words.emplace_back(report.word);
+    return words;
+  }();
+  return kWords;
+}
+
+std::string_view report_word(Kind kind) {
+  const auto* report = std::ranges::find(kReports, kind, &Report::kind);
+  return report == kReports.end() ? "" : report->word;
 }
 
 const std::vector<std::string>& commands() {
@@ -92,8 +107,7 @@ std::string to_text(const Subject& subject) {
   if (subject.kind == Kind::kTarget) return region + ".target";
   std::string station = region + "." + subject.site + "." + subject.station;
   if (subject.kind == Kind::kCommand) return station + ".cmd." + subject.command;
-  const auto* report = std::ranges::find(kReports, subject.kind, &Report::kind);
-  return station.append(".").append(report->word);
+  return station.append(".").append(report_word(subject.kind));
 }
 
 std::optional<Content> content_of(std::string_view channel) {

@@ -1,6 +1,6 @@
 // The subjects of messages between sites, and the bus channel of each. Pure.
 //
-//   ols.v1.<region>.<site>.<station>.bearing | status | reply | cmd.<command>
+//   ols.v1.<region>.<site>.<station>.bearing | status | reply | skyline | cmd.<command>
 //   ols.v1.<region>.target
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace ols::bridge {
 
-enum class Kind { kBearing, kStatus, kReply, kCommand, kTarget };
+enum class Kind { kBearing, kStatus, kReply, kSkyline, kCommand, kTarget };
 
 struct Subject {
   Kind kind = Kind::kTarget;
@@ -25,6 +25,10 @@ struct Subject {
 // Whether the text may name a region, a site or a station: 1 to 40 letters, digits, - or _. A
 // station named "*" or "a.b" would give its subject another meaning.
 bool is_name(std::string_view text);
+// What a station reports, as a subject names it: "bearing", "status", ...
+const std::vector<std::string>& reports();
+// The word of such a kind; empty for commands and targets.
+std::string_view report_word(Kind kind);
 // The commands that a subject may carry.
 const std::vector<std::string>& commands();
 

@@ -402,12 +402,13 @@ void Console::replay_is(const Json& state, bool is_urgent) {
   if (is_urgent) viewers_.renew(false);
 }
 
-Moment Console::moment() const { return {site_, orders_, pictures_.newest()}; }
+Moment Console::moment() const { return {site_, orders_, pictures_.newest(), skylines_}; }
 
 void Console::show(const Moment& moment) {
   site_ = moment.site;
   orders_ = moment.orders;
   pictures_.show(moment.pictures);
+  skylines_ = moment.skylines;
   viewers_.renew(true);
 }
 

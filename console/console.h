@@ -33,6 +33,7 @@ struct Moment {
   SiteState site;
   PendingOrders orders;
   std::map<std::string, Picture> pictures;
+  SeenSkylines skylines;
 };
 
 class Console {

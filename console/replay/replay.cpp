@@ -33,6 +33,8 @@ bool receive(Console& console, const BusMessage& message, Timeline* timeline) {
     console.receive_bearing(bearing->first, bearing->second);
   } else if (const auto occlusion = occlusion_from(message)) {
     console.receive(*occlusion, now);
+  } else if (const auto skyline = skyline_from(message)) {
+    console.receive(*skyline);
   } else if (const auto fusion = fusion_from(message)) {
     console.receive(*fusion, now);
   } else if (auto picture = picture_from(message)) {
@@ -48,9 +50,9 @@ bool receive(Console& console, const BusMessage& message, Timeline* timeline) {
 }
 
 bool is_shown(const std::string& channel) {
-  constexpr std::array kShown{kStatusChannel, kBearingChannel,  kPreviewChannel,
-                              kPtuChannel,    kReplyChannel,    kDesignateChannel,
-                              kRecordChannel, kOcclusionChannel};
+  constexpr std::array kShown{kStatusChannel, kBearingChannel,   kPreviewChannel,
+                              kPtuChannel,    kReplyChannel,     kDesignateChannel,
+                              kRecordChannel, kOcclusionChannel, kSkylineChannel};
   return channel == kTargetChannel || channel == kFusionStatusChannel ||
          std::ranges::any_of(kShown, [&](std::string_view c) { return channel.starts_with(c); });
 }

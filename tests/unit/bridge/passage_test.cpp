@@ -50,7 +50,7 @@ TEST(Passage, AStationsMessagesGoOutUnderItsSubjectAndNumber) {
   status.sequence = 5;
   const auto state = passage.out("OLS_STATUS_alfa", encoded(status), kNow);
   EXPECT_EQ(state->subject, "ols.v1.r.s.alfa.status");
-  EXPECT_NE(state->headers.at(kIdHeader), out->headers.at(kIdHeader));
+  EXPECT_EQ(state->headers.at(kIdHeader), "alfa:7:5:status");
   EXPECT_EQ(passage.out_counts().passed, 2U);
 }
 
@@ -307,14 +307,15 @@ TEST(Passage, GapsOfWhatComesInAreWatched) {
 }
 
 TEST(Passage, SubscribesToWhatMayPassAndToNothingElse) {
-  EXPECT_EQ(Passage(site()).channels(), "OLS_(BEARING|STATUS|REPLY)_.*");
-  EXPECT_THAT(Passage(site()).subjects(),
-              ElementsAre("ols.v1.r.border.*.bearing", "ols.v1.r.border.*.status",
-                          "ols.v1.r.border.*.reply", "ols.v1.r.s.*.cmd.slew"));
+  EXPECT_EQ(Passage(site()).channels(), "OLS_(BEARING|STATUS|REPLY|SKYLINE)_.*");
+  EXPECT_THAT(
+      Passage(site()).subjects(),
+      ElementsAre("ols.v1.r.border.*.bearing", "ols.v1.r.border.*.status",
+                  "ols.v1.r.border.*.reply", "ols.v1.r.border.*.skyline", "ols.v1.r.s.*.cmd.slew"));
   PassageConfig some = site();
   some.stations = {"alfa", "bravo"};
   some.takes.clear();
-  EXPECT_EQ(Passage(some).channels(), "OLS_(BEARING|STATUS|REPLY)_(alfa|bravo)");
+  EXPECT_EQ(Passage(some).channels(), "OLS_(BEARING|STATUS|REPLY|SKYLINE)_(alfa|bravo)");
   EXPECT_THAT(Passage(some).subjects(),
               ElementsAre("ols.v1.r.s.alfa.cmd.slew", "ols.v1.r.s.bravo.cmd.slew"));
   EXPECT_EQ(Passage(region()).channels(), "OLS_TARGET|OLS_SLEW_.*");

@@ -9,7 +9,7 @@ namespace {
 
 TEST(Subject, EachFormIsReadAndWrittenTheSame) {
   for (const char* text : {"ols.v1.moravia.airfield.alfa.bearing", "ols.v1.moravia.a-1.b_2.status",
-                           "ols.v1.moravia.airfield.alfa.reply",
+                           "ols.v1.moravia.airfield.alfa.reply", "ols.v1.r.s.alfa.skyline",
                            "ols.v1.moravia.airfield.alfa.cmd.slew", "ols.v1.moravia.target"}) {
     const auto subject = parse_subject(text);
     ASSERT_TRUE(subject) << text;
@@ -36,6 +36,7 @@ TEST(Subject, AChannelAndItsSubjectName) {
   } kPairs[] = {{"OLS_BEARING_alfa", "ols.v1.r.s.alfa.bearing"},
                 {"OLS_STATUS_alfa", "ols.v1.r.s.alfa.status"},
                 {"OLS_REPLY_alfa", "ols.v1.r.s.alfa.reply"},
+                {"OLS_SKYLINE_alfa", "ols.v1.r.s.alfa.skyline"},
                 {"OLS_SLEW_alfa", "ols.v1.r.s.alfa.cmd.slew"},
                 {"OLS_PTU_alfa", "ols.v1.r.s.alfa.cmd.ptu"},
                 {"OLS_TARGET", "ols.v1.r.target"}};

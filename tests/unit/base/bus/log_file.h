@@ -9,6 +9,7 @@
 
 #include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
+#include "ols_msg/skyline_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
 
@@ -72,6 +73,19 @@ inline std::string logged_reply(std::int64_t utime_us) {
   reply.accepted = 1;
   reply.state = ols_msg::station_status_t::STATE_STOPPED;
   return log_record(utime_us, "OLS_REPLY_alfa", payload_of(reply));
+}
+
+// A column of its skyline that disagrees with the land.
+inline std::string logged_skyline(std::int64_t utime_us, std::int16_t column) {
+  ols_msg::skyline_t skyline{};
+  skyline.schema_version = ols_msg::skyline_t::SCHEMA_VERSION;
+  skyline.station = "alfa";
+  skyline.begun_utime = kStart_us;
+  skyline.columns = 1;
+  skyline.column = {column};
+  skyline.elevation_rad = skyline.sd_rad = skyline.hides_from_m = {0.5F};
+  skyline.disagrees = {1};
+  return log_record(utime_us, "OLS_SKYLINE_alfa", payload_of(skyline));
 }
 
 inline std::string logged_target(std::int64_t utime_us, double latitude_deg,

@@ -83,6 +83,31 @@ TEST_F(ReplayTest, AJumpShowsWhatPlayingUpToThereShows) {
   EXPECT_EQ(of_jump.at("events"), of_play.at("events"));
 }
 
+TEST_F(ReplayTest, AJumpShowsWhereThePicturesDisagreedThen) {
+  std::string bytes;
+  for (std::int64_t s = 0; s < 60; ++s) {
+    bytes += logged_status(kStart_us + 1'000'000 * s);
+    if (s == 5 || s == 40) {
+      bytes +=
+          logged_skyline(kStart_us + 1'000'000 * s, s == 5 ? std::int16_t{1} : std::int16_t{2});
+    }
+  }
+  const LogFile log(bytes);
+  Replay replay(log.path(), {}, console_);
+  turn(replay, 10);
+  const auto azimuth_deg = [this] {
+    return console_.seen_skyline("alfa").at("differing").at(0).at(0).get<double>();
+  };
+  for (const double s : {50.0, 20.0, 41.0}) {
+    seek(s);
+    turn(replay, 5);
+    EXPECT_NEAR(azimuth_deg(), s < 40.0 ? 0.075 : 0.125, 1e-9) << s;
+  }
+  seek(2.0);
+  turn(replay, 5);
+  EXPECT_TRUE(console_.seen_skyline("alfa").at("differing").empty());
+}
+
 TEST_F(ReplayTest, TheTimelineHasAlarmsCommandsAndTargets) {
   const LogFile log(two_minutes());
   Replay replay(log.path(), {}, console_);
