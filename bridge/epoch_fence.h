@@ -22,12 +22,12 @@ struct Claim {
 
 class EpochFence {
  public:
-  // An owner with a lower epoch may lead a station again when no command with the greatest epoch
-  // has come for this long: that owner no longer leads it.
+  // If the owner that leads a station has sent it no command for this long, it no longer leads the
+  // station, and an owner with a lower epoch may lead it.
   static constexpr double kSilence_s = 2.0;
   static constexpr double kForgotten_s = 60.0;
-  // The store counts the renewals of all targets. Its revision can exceed the last one by at most
-  // kMostJump, plus kMost_Hz for each second between.
+  // The store counts the renewals of all targets. Its next revision may exceed the greatest one so
+  // far by at most kMostJump, plus kMost_Hz for each second since then.
   static constexpr std::uint64_t kMostEver = 1'000'000'000'000'000, kMostJump = 1'000'000;
   static constexpr double kMost_Hz = 10'000.0;
 
@@ -37,8 +37,8 @@ class EpochFence {
   std::uint64_t greatest() const { return greatest_; }
 
  private:
-  static constexpr double kSweep_s = 1.0;  // least time between two searches for silent stations,
-                                           // also in a flood of names
+  static constexpr double kSweep_s = 1.0;  // shortest time between two searches for silent
+                                           // stations, even if new names arrive faster
 
   struct Led {
     std::uint64_t epoch = 0;

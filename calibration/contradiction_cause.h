@@ -16,8 +16,8 @@ std::vector<std::string> causes_of_contradiction(const Problem& problem, const L
 
 // The same for mistakes of a station, which look like several mistaken references: its position is
 // surveyed wrongly; or its tripod was turned, or its unit lost its counts, between two sightings.
-// Of thousands of sightings of a drone or an aircraft it tries some hundreds, so the one that is
-// named may come a little late.
+// If there are thousands of sightings of a drone or an aircraft, some hundreds are tried, so the
+// sighting that is named may come a little after the mistake.
 std::vector<std::string> mistakes_of_stations(const Problem& problem, const Levels& levels = {});
 
 }  // namespace ols::calibration

@@ -16,8 +16,8 @@ struct Problem {
   References references;
   std::optional<Air> air;  // the standard atmosphere if nullopt
   EarthRotation earth;
-  // Of UT1 and of the clock that stamps the sightings: both turn the sky alike. 0.3 if UT1 is
-  // unknown: it is always within a second of UTC.
+  // 1-sigma of UT1 and of the clock that stamps the sightings together, because both turn the sky
+  // alike. 0.3 if UT1 is unknown, because UT1 is always within a second of UTC.
   double ut1_sd_s = 0.3;
 };
 

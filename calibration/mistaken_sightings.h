@@ -4,7 +4,7 @@
 // The sightings of a drone share an offset, so they form one group. But if one detection was in
 // fact a bird, the other sightings of the drone are still right. Each sighting (for a track: all
 // sightings of one instant) is therefore tested against everything else, in addition to the groups.
-// Of the sightings that fail, the worst is removed first. If more than a third of a group's
+// The worst of the sightings that fail is removed first. If more than a third of a group's
 // sightings fail, the group itself is mistaken; that is left to calibrate().
 #pragma once
 

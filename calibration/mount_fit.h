@@ -3,7 +3,7 @@
 //   seen = zero + gain * reported + backlash * approach / 2 + gain * delay * rate
 //
 // approach: 1 or -1, the sign of the last motion. A report that is `delay` late states an earlier
-// position of the mount, so in motion the picture is ahead of it.
+// position of the mount, so in motion the picture is ahead of the report.
 #pragma once
 
 #include <optional>

@@ -16,7 +16,7 @@ class StarsUnidentified : public std::invalid_argument {
 
 struct NamedStars {
   std::vector<std::string> remarks;     // for each station, what was found
-  std::vector<std::size_t> false_ones;  // indices of observations that show no star of the table
+  std::vector<std::size_t> false_ones;  // indices of observations that match no star of the table
 };
 
 // Gives a reference to each star observation that has none. Each missing reference "HIP n" is

@@ -19,9 +19,10 @@ struct ParameterChange {
 ParameterChange parameter_change(const Network& network, const Fit& fit, std::size_t station,
                                  int parameter);
 
-// The clock that stamps the sightings of the sky, as all observations but its own stated error show
-// it. A wrong time turns the whole sky about the pole, and a tripod that leans the other way looks
-// the same: stars alone cannot check it, but landmarks and an inclinometer can.
+// The error of the clock that stamps the sightings of the sky, as all observations show it without
+// the clock's own stated error. A wrong time turns the whole sky about the pole, and a tripod that
+// leans the other way would see the same. So stars alone cannot check the clock, but landmarks and
+// an inclinometer can.
 struct ClockCheck {
   double fast_s = 0.0;
   // 1-sigma of `fast_s` if the stated error is right; infinite: nothing checks the clock.

@@ -51,7 +51,7 @@ class StarVotes {
   std::vector<StarHypothesis> hypotheses() const;
 
  private:
-  // Cells of turn and lift; one row of turns for each lift.
+  // Cells of heading (turn) and elevation shift (lift); one row of turns for each lift.
   struct Cells {
     int turns = 0, lifts = 0;
     std::vector<int> votes;

@@ -38,7 +38,8 @@ std::variant<Message, Unread> read(std::string_view channel, std::string_view on
 // As above; nullopt if the message cannot be read.
 template <class Message>
 std::optional<Message> read(std::string_view channel, const BusMessage& message) {
-  // Checked first: most messages are on other channels, and decoding them all would cost too much.
+  // The channel is checked first, because most messages are on other channels, and decoding them
+  // all would cost too much.
   if (!message.channel.starts_with(channel)) return std::nullopt;
   auto found = read<Message>(channel, message.channel, message.payload.data(),
                              static_cast<int>(message.payload.size()));

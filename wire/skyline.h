@@ -7,8 +7,8 @@ namespace ols::wire {
 
 inline constexpr int kSkylineSectors = 72, kSkylineSectorColumns = 100;
 
-// Whether a station sends such values: no more columns than a sector has, each of this sector, in
-// ascending order and with numbers that can be true.
+// Whether the values are possible: no more columns than a sector has, each of this sector, in
+// ascending order and with plausible numbers.
 bool is_skyline(const ols_msg::skyline_t& message);
 
 }  // namespace ols::wire

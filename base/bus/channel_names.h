@@ -37,7 +37,7 @@ inline std::string station_channel(std::string_view channel, std::string_view st
   return std::string(channel).append(station);
 }
 
-// The kind of message on a station's channel, as its name states it: PTU for OLS_PTU_a.
+// The kind of message that the prefix of stations' channels stands for: PTU for OLS_PTU_.
 inline std::string message_kind(std::string_view channel) {
   constexpr std::string_view kPrefix = "OLS_";
   return std::string(channel.substr(kPrefix.size(), channel.size() - kPrefix.size() - 1));

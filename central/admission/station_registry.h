@@ -43,7 +43,7 @@ struct KnownStation {
     traits.camera_ecef = sight.origin_ecef;
     traits.camera_sd_enu_m = sight.origin_sd_enu_m;
   }
-  // The target that the station follows, or followed until a moment ago; 0 if there is none.
+  // The target that the station follows, or has followed until a moment ago; 0 if there is none.
   std::int64_t follows(std::int64_t now_us) const {
     return saw_target.age_s(now_us) < Activity::kFollowsS ? target_id : 0;
   }

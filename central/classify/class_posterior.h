@@ -3,16 +3,16 @@
 // Each kind (class_table.h) has a probability density over six features of a look, a mixture of
 // normal distributions. The features are size, speed, climb, acceleration across the path, height
 // above the ground, and flicker. Flicker is the relative variance of the outline's two sides within
-// a second, wings and rotors seen as one: a bird's outline changes with its wing beat of 2 to 15
-// Hz, a rigid body's does not. Seen from the side, wings change only the shorter side. The error of
-// each feature is added to the variance of the density, so that an uncertain look decides little.
-// An unknown feature is left out.
+// a second; wings and rotors are part of the outline. A bird's outline changes with its wing beat
+// of 2 to 15 Hz, a rigid body's does not. Seen from the side, wings change only the shorter side.
+// The error of each feature is added to the variance of the density, so that an uncertain look
+// decides little. An unknown feature is left out.
 //
-// Looks at one track are correlated. Their log-likelihoods are therefore averaged. What an object
-// keeps for its life (size, cruising speed, height) counts as one look. The other features, given
-// these, count as 1 + t / kCorrelation_s independent looks after t seconds, at most kMostLooks: a
-// bird that glides now still glides a tenth of a second later. The weight of a look falls to 37 %
-// in kMemory_s, so that the class changes when a track passes to another object.
+// Looks at one track are correlated. Their log-likelihoods are therefore averaged. Features that an
+// object keeps for its life (size, cruising speed, height) count as one look. The other features,
+// given these, count as 1 + t / kCorrelation_s independent looks after t seconds, at most
+// kMostLooks: a bird that glides now still glides a tenth of a second later. The weight of a look
+// falls to 37 % in kMemory_s, so that the class changes when a track passes to another object.
 //
 // A target is 'unknown' until it has been looked at for a second and one class has a posterior of
 // at least 0.9. A look without a size does not count: by motion alone a balloon, a hovering drone
@@ -38,9 +38,9 @@ struct Measured {
   double value = 0.0, sd = 0.0;  // 1-sigma; 0 if the value is unknown
 };
 
-// The largest extent of an object in one image [m], its 1-sigma, and the noise that is new in each
-// image (0: unknown). `across_m`: the smaller side of its upright box, with the same relative
-// noise; 0: unknown.
+// The largest extent of an object in one image [m], its 1-sigma, and the part of it that is
+// independent from image to image (0: unknown). `across_m`: the smaller side of the upright box,
+// with the same relative noise; 0: unknown.
 struct SeenSize {
   double value_m = 0.0, sd_m = 0.0, noise_m = 0.0, across_m = 0.0;
 };

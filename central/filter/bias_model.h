@@ -80,7 +80,7 @@ struct BiasPrior {
   Eigen::Array3d empirical = Eigen::Array3d::Zero();
 };
 
-// That covariance, for a target at range_m.
+// The covariance of position error and aim (BiasPrior::place_m2), for a target at range_m.
 Eigen::Matrix3d place_covariance(const LineOfSight& sight, double range_m);
 
 // A station's bias [rad] (cross-elevation, elevation), and each axis's posterior and prior

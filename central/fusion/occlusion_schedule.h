@@ -1,4 +1,4 @@
-// Tells a station when and where its target, hidden by the land, will come out again. Pure.
+// Tells a station when and where the land that hides its target will reveal it again. Pure.
 #pragma once
 
 #include <cstdint>

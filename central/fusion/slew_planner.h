@@ -111,8 +111,8 @@ class SlewPlanner {
  public:
   explicit SlewPlanner(const SlewConfig& config = {}) : config_(config) {}
 
-  // Decides, for the round, to which target each station is led. Of `tracks`, confirmed ones count,
-  // and coasting ones for coast_s.
+  // Decides, for the round, to which target each station is led. Confirmed `tracks` count, and
+  // coasting ones for coast_s.
   void allocate(SlewRound& round, std::span<const SlewStation> stations,
                 const std::vector<Track>& tracks) const;
   // Plans for all or some of the stations, and counts in the round how many are sent to each

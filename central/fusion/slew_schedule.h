@@ -62,7 +62,8 @@ class SlewSchedule {
   };
   const BearingMeasurement* line_of(const std::string& station,
                                     const std::vector<const BearingMeasurement*>& own);
-  // How many turns the search along its line has had; nullopt: it must not be searched now.
+  // How often the line of this object has had its turn to be searched; nullopt: it must not be
+  // searched now.
   std::optional<int> turn_of(const TrackletName& tracklet);
   // Sorts the lines: the first is searched. See cue().
   using LineKey = std::tuple<bool, int, bool, bool, std::string>;

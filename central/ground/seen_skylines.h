@@ -1,5 +1,5 @@
-// The skylines that the stations have seen, and what they hide beside what the land's model hides.
-// Pure.
+// The skylines that the stations have seen, and what hides targets there in addition to the model
+// of the land. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ struct SkylineSector {
 class SeenSkylines {
  public:
   void take(const SkylineSector& sector);
-  // Null if none is known from this place, or if the station disputes its heading.
+  // Null if none is known from this place, or if the station's heading disagrees with the land.
   const land::SeenSkyline* of(const std::string& station, const Eigen::Vector3d& camera_ecef) const;
   // The probability that what the station has seen does not hide a target with this covariance
   // [m^2, ECEF]; 1 where nothing is known.

@@ -5,7 +5,7 @@
 //  - The policy for targets found by detectors is one of three. off: they lead no station. propose:
 //    each waits for an operator. automatic: those of the configured `classes` lead at once, and the
 //    others wait for an operator.
-//  - An operator's decision takes effect at once, for designated targets too, and lasts until the
+//  - An operator's decision takes effect at once, also for designated targets, and lasts until the
 //    target loses its number. Designating a dismissed target takes the dismissal back.
 //  - If a target is lost, the decision on it passes to the first new target that appears at its
 //    predicted position.
@@ -59,7 +59,8 @@ class HandoverPolicy {
   // probability that it exists, times the probability that it is of a class that leads. If an
   // operator has designated or allowed it, the second factor is 10.
   double priority(const Track& track) const;
-  // Whether an operator has designated or allowed it: its trackers are not taken from it.
+  // Whether an operator has designated or allowed it. If so, its trackers are not taken away from
+  // it.
   bool is_wanted(std::int64_t target_id) const;
   // Whether trackers are to let go of it: an operator has dismissed it, or the policy led stations
   // there while its class was unknown, and the class turned out to be one that leads none.

@@ -39,11 +39,11 @@ struct LinePrior {
   double sd_m = 150.0;     // of a logistic distribution
 };
 
-// By the apparent size, for an object as large as a drone or a bird. nullopt if the size is
-// unknown.
+// The range that follows from the apparent size of an object as large as a drone or a bird. nullopt
+// if the size is unknown.
 std::optional<LinePrior> range_by_size(const CueRay& ray);
 
-// Combines both, by the logarithm of the range. If the sigma of `second` is as large as its range,
+// Combines both ranges, by their logarithms. If the sigma of `second` is as large as its range,
 // `second` says nothing, and the result is `first`.
 LinePrior combined(const LinePrior& first, const LinePrior& second);
 

@@ -5,16 +5,18 @@
 // stations are free.
 //
 //  - The good pair of a target consists of stations that see it. A station that sees a target can
-//    be spared if the others that see it are a good pair. A station that cannot be spared leaves
-//    its target only for one with 1.5 times the priority, and only if spared stations give that one
-//    no good pair. An operator's target keeps all of its trackers. Any other station may be moved.
+//    be spared if the other stations that see the target include a good pair. A station that cannot
+//    be spared leaves its target only for another one with 1.5 times the priority, and only if
+//    spared stations give that other target no good pair. An operator's target keeps all of its
+//    trackers. Any other station may be moved.
 //  - Targets without a good pair come first. Pairs of target and station are served in the order of
 //    priority divided by (0.5 s + time to turn there), the highest first. A station that is on its
-//    way counts as being there.
+//    way to a target counts as being there.
 //  - Then one station searches along the line of sight of an object that has no position. If there
-//    is no target, all do.
+//    is no target, all stations search.
 //  - The remaining stations go where the priority, divided by the number of stations there, is
-//    highest. A station leaves its present target only for 1.5 times as much.
+//    highest. A station leaves its present target only for another one where this value is 1.5
+//    times as high.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,18 +10,19 @@
 
 namespace ols::fusion {
 
-// How a station states that its UTC is synchronised.
+// What a station says about whether its UTC is synchronised.
 enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
 
 // What the station has seen of the object itself, besides its direction. Zero or empty if unknown.
 struct Sighted {
-  // On the tangent plane, with the bearing's noise.
+  // Angular rate on the tangent plane: cross-elevation, elevation.
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
   // [rad^2/s^2] zero if the rate is unknown.
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();
   double size_rad = 0.0, size_sd_rad = 0.0;  // largest extent
   double across_rad = 0.0;                   // smaller side of its upright box
-  // 1-sigma of the largest extent that is new in each image; 0: unknown.
+  // 1-sigma of the part of the largest extent's error that is independent from image to image; 0 if
+  // unknown.
   double size_noise_rad = 0.0;
   double signal = 0.0;                      // signal-to-noise ratio in one image
   std::vector<double> class_probability{};  // in the order of target_t's CLASS_*
@@ -41,7 +42,8 @@ struct BearingMeasurement {
   std::int64_t track_id = 0;        // identifies one followed object of that station
   std::int64_t calibration_id = 0;  // a new id means new systematic errors
   bool is_tracklet = false;         // from a detector; nobody has designated the object
-  bool is_acquired = false;         // of a tracker that a slew led there; nobody has designated it
+  // From a tracker that a slew led to the object; nobody has designated it.
+  bool is_acquired = false;
   int image_bearings = 0;  // number of bearings that the station sends for this image; 0 if unknown
   Sighted sighted{};
 };

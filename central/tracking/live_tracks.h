@@ -1,12 +1,12 @@
 // Live tracks of several targets, and the association of bearings with them. Pure.
 //
 // The rules (details in docs/fusion.md):
-//  - The bearings of one image are assigned to the confirmed tracks such that the sum of
-//    residuals is least. The remaining bearings are assigned to the tentative tracks in the same
-//    way. A track takes one bearing per exposure of a station.
-//  - If two confirmed tracks fit a bearing about equally well (they cross in that station's
-//    view), the bearing is ambiguous and updates neither track. The other stations tell the two
-//    tracks apart.
+//  - The bearings of one image are assigned to the confirmed tracks so that the sum of the NIS is
+//    smallest. The remaining bearings are assigned to the tentative tracks in the same way. A track
+//    takes one bearing per exposure of a station.
+//  - If two confirmed tracks fit a bearing about equally well (they cross in that station's view),
+//    the bearing is ambiguous and updates neither track. The other stations tell the two tracks
+//    apart.
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
 //  - tentative -> confirmed: three stations have given two bearings each, or two stations have
 //    given five each over confirm_s; the track explains most of their bearings; and it has a
@@ -19,9 +19,8 @@
 //  - coasting -> deleted: no two stations have seen it for drop_s. The limit is coast_s instead if
 //    one station has too many consecutive rejections while no two other stations agree.
 //  - two confirmed tracks -> one: they have been duplicates for a second (duplicate_tracks.h).
-//  - A track that is confirmed at the predicted position of a deleted one takes over its
-//    identity. Otherwise it takes over the identity of the bearing-only track of one of its
-//    stations.
+//  - A track that is confirmed at the predicted position of a deleted one takes over its identity.
+//    Otherwise it takes over the identity of the bearing-only track of one of its stations.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +51,7 @@ class LiveTracks : public TrackManager {
                  std::int64_t utime_us) {
     views_.know(station, axis, view_rad, utime_us);
   }
-  // What hides targets from a station beside what the land's model hides.
+  // The obstacles that a station has seen, which hide targets in addition to the model of the land.
   void know_skyline(const SkylineSector& sector) { skylines_.take(sector); }
   void forget_skyline(const std::string& station) { skylines_.forget(station); }
   const SeenSkylines& skylines() const { return skylines_; }

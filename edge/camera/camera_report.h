@@ -64,8 +64,8 @@ struct CameraFacts {
 // If a larger share of the recent frames lacks packets, the camera is faulty.
 inline constexpr double kManyIncomplete = 0.02;
 
-// The alarm for a camera that has sent for `open_s`; nullopt if the rate is about the configured
-// one, or not yet known.
+// The alarm for a camera that has been sending for `open_s`; nullopt if its rate is about the
+// configured one, or not known yet.
 std::optional<Alarm> rate_alarm(const CameraConfig& config, double rate_hz, double open_s);
 
 device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,

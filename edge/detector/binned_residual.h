@@ -1,4 +1,4 @@
-// A matched filter for a point of one to three pixels, on half of the image's pixels each way.
+// A matched filter for a point of one to three pixels, at half of the image's resolution.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A matched filter for a spot of a few pixels in front of smooth surroundings.
+// A matched filter for a spot of a few pixels against a smooth background.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Finds moving points that are too dim for a single image, by shift and stack before even
-// surroundings.
+// Finds moving points that are too dim for a single image, by shift and stack against an even
+// background.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,18 +18,18 @@
 namespace ols::detector {
 
 struct DimConfig {
-  // In standard deviations of a sum: of the shift and stack's peaks that are looked at more closely
-  // (eight images), of the sum along the best line through sixteen images, and of each eight
-  // images after these.
+  // Thresholds in standard deviations of a sum: of a peak of the shift and stack (eight images),
+  // which is then examined more closely; of the sum along the best line through sixteen images; of
+  // every eight images after these.
   double peak_sd = 4.6, line_sd = 6.2, next_sd = 3.6;
   double least_px = 0.6;  // speed relative to the scene, per image: slower ones are taken for scene
-  std::size_t tiles = 8;  // most that are stacked in one image
+  std::size_t tiles = 8;  // largest number that is stacked with one image
   std::size_t most = 16;  // number of points that are followed
 };
 
-// A point that the stack shows is followed on its straight path and measured once in eight images,
-// from these images alone: so each detection has new noise. If no part of the picture is even, it
-// rests for a while, because the ground seldom becomes sky.
+// A point that the stack shows is followed on its straight path, and measured once in eight images
+// from these images alone, so that the noise of its detections is independent. If no part of the
+// picture is even, the search rests for a while, because the ground seldom becomes sky.
 class DimFinder {
  public:
   explicit DimFinder(const DimConfig& config) : config_(config) {}

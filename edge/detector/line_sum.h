@@ -1,4 +1,5 @@
-// Sums the past along the straight path of a point, without the rounding of a shift and stack.
+// Sums the past images along the straight path of a point, without the rounding of a shift and
+// stack.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +22,8 @@ class LineSum {
   // scene. One image counts at most four standard deviations. 0 outside the image.
   double along(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                std::size_t images) const;
-  // The same without what is still there before and after the point: takes ten times as long.
+  // The same, without what is at those places before and after the point has passed. Takes ten
+  // times as long.
   double along_without_scene(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                              std::size_t images) const;
 

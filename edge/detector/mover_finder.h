@@ -1,4 +1,4 @@
-// Finds objects that move in front of the ground, by their difference from the aligned scene.
+// Finds objects that move against the ground, by their difference from the aligned scene.
 #pragma once
 
 #include <optional>

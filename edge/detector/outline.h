@@ -1,5 +1,6 @@
-// Measures the size of an object in front of smooth surroundings to a fraction of a pixel. A box of
-// whole pixels of a pyramid's level is not good enough: its steps look like the beat of wings.
+// Measures the size of an object against a smooth background to a fraction of a pixel. A box of
+// whole pixels in a level of the pyramid is not good enough, because its steps look like a wing
+// beat.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +17,9 @@ struct Outline {
 };
 
 // `gray`: 8-bit, one channel. `centre`, `extent_px`: where the object is, and its largest side as
-// far as it is known. nullopt if it hardly stands out from its surroundings, if it is connected
-// with what is further away than that side, or if the edge of the image is that near.
+// far as it is known. nullopt if the object hardly stands out from its surroundings, if it is
+// connected with something further away than that side, or if the edge of the image is nearer than
+// that.
 std::optional<Outline> outline_at(const cv::Mat& gray, const Eigen::Vector2d& centre,
                                   double extent_px);
 

@@ -1,5 +1,5 @@
-// Finds compact bright or dark spots in front of smooth surroundings in a single image: a target
-// against the sky, however slowly it moves.
+// Finds compact bright or dark spots against a smooth background in a single image, such as a
+// target against the sky, however slowly it moves.
 #pragma once
 
 #include <algorithm>

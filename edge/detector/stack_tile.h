@@ -14,9 +14,9 @@ class StackTile {
  public:
   static constexpr int kScale = 28;  // values per standard deviation of the noise
 
-  // Subtracts the median of eight images, aligned at the tile's centre, from each of them; divides
-  // by the noise, and puts the result into `stack`. `corner`: of the tile, in bins.
-  // Returns false if the false alarm rate of a stack would be unknown there:
+  // Aligns eight images at the tile's centre, subtracts their median from each of them, divides by
+  // the noise, and puts the result into `stack`. `corner`: of the tile, in bins. Returns false if
+  // the false alarm rate of a stack would be unknown there:
   // - the noise hides in the rounding to whole grey levels;
   // - the median varies from bin to bin as much as the noise: a texture, or an encoder's frozen
   //   noise;

@@ -20,8 +20,8 @@ class Tracklet {
   // image.
   void predict(const Eigen::Matrix3d& motion, double interval_s);
   void update(const Detection& detection);
-  // Notes that the object was found again away from its prediction: position and velocity begin
-  // anew.
+  // Notes that the object was found again at another place than predicted: position and velocity
+  // begin anew.
   void leap(const Detection& detection, double image_width_px);
   void miss() {
     seen_ = false;
@@ -53,7 +53,7 @@ class Tracklet {
   double measured_sd_px() const { return measured_sd_px_; }
   const Eigen::Vector2d& measured_size_px() const { return measured_size_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }  // smoothed
-  // Of the newest detection, as measured with measure_outline(); nullopt if it has no clear
+  // The outline of the newest detection, from measure_outline(); nullopt if it has no clear
   // outline.
   const std::optional<Outline>& outline() const { return outline_; }
   void measure_outline(const cv::Mat& gray);

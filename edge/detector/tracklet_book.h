@@ -18,14 +18,14 @@ struct TrackletConfig {
   double detected = 0.8;  // probability that an object is detected in an image
   // Clutter repeats itself in successive images, so one detection adds at most this much to the log
   // ratio.
-  double most_log_ratio = 1.5;         // for a spot in front of clear sky
+  double most_log_ratio = 1.5;         // for a spot against a clear sky
   double most_ground_log_ratio = 0.7;  // for anything else
-  // What a point adds that a stack of images shows where its path leads. Noise does so once in 250
-  // times.
+  // What a detection by a stack of images adds if it lies where a dim point's path leads. Noise
+  // produces such a detection only in one of 250 tries.
   double stack_log_ratio = 4.0;
   double least_directness =
-      0.7;  // for objects in front of the ground: smallest distance over length of the path
-  double coast_s = 0.4;  // how long an object remains while it is not seen
+      0.7;  // for objects against the ground: smallest distance over length of the path
+  double coast_s = 0.4;  // how long an object is kept while it is not seen
 };
 
 class TrackletBook {

@@ -10,9 +10,9 @@
 
 namespace ols::detector {
 
-// Works on one tile, with a margin for what moves in from outside. The mean over eight images is
-// made of means of two, and these of means over two and four images, so that velocities share
-// their parts.
+// Works on one tile, with a margin for points that move in from outside. The mean over eight images
+// is computed from means over four, and these from means over two, so that velocities share parts
+// of the work.
 class VelocityStack {
  public:
   static constexpr int kImages = 8;

@@ -23,8 +23,8 @@ struct AngleSample {
   PanTilt step_share = {1.0, 1.0};
   // [rad/s^2] approximate acceleration that was commanded since the previous sample.
   PanTilt acceleration = {};
-  // [rad/s] by how much the ordered rate had changed when the sample arrived, since shortly before
-  // the previous one; nullopt: it is not known.
+  // [rad/s] by how much the ordered rate changed from shortly before the previous sample until this
+  // one arrived; nullopt if it is not known.
   std::optional<PanTilt> ordered_change = {};
   double shared_time_sd_s = 0.0;  // 1-sigma of an error that the instants of all samples share
 };

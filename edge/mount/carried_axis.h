@@ -1,14 +1,14 @@
-// One axis' angle, carried from the mount's reports to other instants by the turns that the
+// The angle of one axis, carried from the mount's reports to other instants by the turns that the
 // pictures show. Pure.
 //
-// A Kalman filter. Besides the angle at the newest report it estimates what makes reports and
-// pictures differ: the error of the time that all reports share; the scale (the mount's gain, the
-// lens's focal length); the motion of the scene itself (clouds). Only a changing rate tells these
-// apart. They wander, so they are slowly forgotten.
+// A Kalman filter. Besides the angle at the newest report it estimates the causes of differences
+// between reports and pictures: the error of the time that all reports share; the scale (the
+// mount's gain, the lens's focal length); the motion of the scene itself (clouds). Only a changing
+// rate distinguishes these. Their values wander, so they are slowly forgotten.
 //
-// A report's error depends on the place. Another report of the same place therefore does not
-// improve the angle. Reports of other places do so only as far as they are seen to scatter. The
-// rest of the stated error (backlash, for example) stays in the variance.
+// A report's error depends on the reported place. Another report of the same place therefore does
+// not improve the angle. Reports of other places improve it only as far as they are seen to
+// scatter. The rest of the stated error (backlash, for example) stays in the variance.
 #pragma once
 
 #include <Eigen/Core>
@@ -64,7 +64,7 @@ class CarriedAxis {
   std::optional<Matrix> covariance_;
   double used_turned_rad_ = 0.0;  // at the last report that changed the state
   double place_rad2_ = 0.0;       // as last stated
-  double scatter_rad2_ = 0.0;     // mean square by which reports differ from place to place
+  double scatter_rad2_ = 0.0;     // mean square difference of the reports from place to place
 };
 
 }  // namespace ols::mount

@@ -1,5 +1,5 @@
-// The mount's angles at an exposure: by its reports alone, or carried by the pictures where that is
-// surer and does not contradict the reports. Pure.
+// The mount's angles at an exposure: by its reports alone, or carried by the pictures if that is
+// more accurate and does not contradict the reports. Pure.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@ class MountAngles {
   void add(const SeenTurn& turn) { carried_.add(turn); }
   void clear();
 
-  // `stamp_sd_s`: 1-sigma of the instant, as far as it is that of a picture's stamp; the covariance
-  // includes it. nullopt if neither covers the instant.
+  // `stamp_sd_s`: 1-sigma of the instant, if this is a picture's stamp; the covariance includes it.
+  // nullopt if neither covers the instant.
   std::optional<AngleAt> at(double time_s, double stamp_sd_s = 0.0) const;
   // By the reports alone.
   const AngleHistory& reported() const { return reported_; }

@@ -13,7 +13,8 @@ namespace ols::mount {
 // The mount's turn between two pictures.
 struct SeenTurn {
   double from_s = 0.0, to_s = 0.0;  // their mid-exposures, on the station's monotonic clock
-  // How much later the rows were exposed in which the turn was seen; 0 for a global shutter.
+  // How much later than mid-exposure the rows in which the turn was seen were exposed; 0 for a
+  // global shutter.
   double row_s = 0.0;
   double stamp_sd_s = 0.0;  // 1-sigma of an error that the instants of all pictures share
   PanTilt turn;
@@ -37,7 +38,7 @@ class SeenPath {
     PanTilt walk;    // [rad^2] variance of `turned`, a random walk from the path's beginning
     PanTilt bend;    // [rad^2] variance at this instant, as the rate changes between pictures
   };
-  // nullopt before the path, and later than one more picture after it.
+  // nullopt before the path, and more than one picture interval after its end.
   std::optional<At> at(double time_s) const;
   bool covers(double time_s) const { return !knots_.empty() && time_s <= knots_.back().time_s; }
 

@@ -1,4 +1,5 @@
-// The skyline of a map of the land in a picture, and the found one as directions. Pure.
+// The rows of a picture where the map of the land expects the skyline, and the directions of the
+// skyline that was found. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +14,8 @@
 
 namespace ols::skyline {
 
-// A heading and a tilt that are wrong by as much as these are still found at once, even if the
-// station states less: 1-sigma.
+// 1-sigma of heading and tilt that is added to what the station states, so that larger errors than
+// stated are still found at once.
 inline constexpr double kHeadingSd_rad = radians(0.3), kTiltSd_rad = radians(0.1);
 
 // How a picture was taken, according to the station.
@@ -25,13 +26,13 @@ struct PictureView {
   double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
 };
 
-// The map's skyline. If nearer land is so little lower that the errors of the map may put it before
-// the crest, its sigma is that of the nearer land. nullopt where the land is unknown.
+// The map's skyline. If nearer land is only so little lower that with the map's errors it may cover
+// the crest, the sigma is that of the nearer land. nullopt where the land is unknown.
 std::optional<land::Skyline> uncertain_skyline(const land::HorizonMap& map, double azimuth_rad);
 
 // The row of the land's skyline in each strip of a picture. The sigmas are wide enough for a
-// station whose heading and tilt are somewhat more wrong than it states. nullopt where the land is
-// unknown and where the skyline is far outside the picture.
+// station whose errors of heading and tilt are somewhat larger than stated. nullopt where the land
+// is unknown and where the skyline is far outside the picture.
 Rows expected_rows(const land::HorizonMap& map, const PictureView& view);
 
 // The same rows, with sigmas wide enough for obstacles that stand kHighest_rad above the skyline.

@@ -1,4 +1,5 @@
-// A station's seen skyline as it is saved over a restart, and its text in a file. Pure.
+// A station's seen skyline as it is saved for the time after a restart, and its text in a file.
+// Pure.
 //
 //   ols-skyline 1
 //   station ID

@@ -8,19 +8,21 @@
 
 namespace ols::skyline {
 
-// One azimuth of the seen skyline, as the station's heading and tilt have it.
+// One azimuth of the seen skyline, computed with the station's heading and tilt.
 struct SeenPlace {
   AzimuthElevation direction;
   double variance_rad2 = 0.0;  // of the elevation, from the pictures alone
-  // Of the azimuth, as the station states it. Its error may be the same at all places.
+  // Of the azimuth, as stated by the station. The error of the azimuths may be the same at all
+  // places.
   double azimuth_variance_rad2 = 0.0;
   double newest_s = 0.0;  // time of the newest of its pictures
   double oldest_s = 0.0;  // and of the first
   int pictures = 1;       // as many as are averaged: SeenHorizon::kMost at most
 };
 
-// Several pictures of the same place are averaged: the noise of pictures becomes smaller, the error
-// of a model of the land does not. New pictures replace old ones, because a tripod may be knocked.
+// Several pictures of the same place are averaged. This reduces the noise of the pictures, but not
+// the error of the model of the land. New pictures replace old ones, because a tripod may be
+// knocked.
 class SeenHorizon {
  public:
   // A picture that shows a place higher or lower than its mean, by more than `anew_rad`, begins the
@@ -36,7 +38,8 @@ class SeenHorizon {
   std::vector<SeenPlace> places() const;
 
   static constexpr int kColumns = 7200;  // as many as a map has
-  static constexpr int kMost = 5;  // a picture counts for at least one in so many at its places
+  // The newest picture has at least this share of the mean at its places: one in kMost.
+  static constexpr int kMost = 5;
   static constexpr double kMemory_s = 1800.0;
 
  private:

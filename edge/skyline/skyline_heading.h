@@ -1,6 +1,6 @@
-// The error of a station's heading, from the skyline that it has seen and the land's. Pure.
+// The error of a station's heading, from the skyline that it has seen and that of the land. Pure.
 //
-// What differs between the two, for one azimuth:
+// The difference between the two, at one azimuth:
 //
 //   seen - modelled elevation = slope * heading error          (moves the skyline along itself)
 //     + level, tilt towards east and north                     (of the station)
@@ -9,9 +9,10 @@
 //     + error of the model there + error of the pictures
 //
 // The model's error has the sigma that the land states. It is about the same along a crest, over
-// kLowered_m on the ground, and independent on another ridge: so many pictures of one crest say
-// little more than one, and a whole horizon much more. The error is a first-order Markov process
-// along the skyline, so all of it is solved exactly, in time proportional to the number of places.
+// kLowered_m on the ground, and independent on another ridge. So many pictures of one crest say
+// little more than one picture, but a whole horizon says much more. The error is a first-order
+// Markov process along the skyline, so all of it is solved exactly, in time proportional to the
+// number of places.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,8 +29,8 @@ struct SkylineHeading {
   double sd_rad = 0.0;     // 1-sigma, the model's error included
 };
 
-// 1-sigma of what the station has, before anything is seen. While little is seen, this keeps the
-// estimate where the finder can have found it.
+// 1-sigma of the station's own errors before anything is seen. While little has been seen, these
+// keep the estimate within the range in which the finder looks.
 struct StationSd {
   double heading_rad = kHeadingSd_rad, tilt_rad = kTiltSd_rad;
   // Of the camera's place (east, north, up) relative to the model as a whole: of the station's

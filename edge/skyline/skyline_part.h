@@ -18,7 +18,7 @@ struct SkylinePart {
   std::vector<land::SeenSkyline::Column> columns;  // all that are seen in this sector
 };
 
-// The sectors in which anything is seen, in turn.
+// Returns the sectors in which anything has been seen, one after the other.
 class SkylineParts {
  public:
   SkylinePart next(const HidingSkyline& skyline, bool heading_disagrees);

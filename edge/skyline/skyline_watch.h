@@ -25,8 +25,8 @@ struct StatedPicture {
   double mid_exposure_s = 0.0;  // on the station's monotonic clock
   cv::Mat gray;                 // 8-bit, one channel
   video::CameraView camera;
-  // 1-sigma of its azimuths and elevations from heading, tilt, mounting, angles and lens; they may
-  // err alike in all pictures.
+  // 1-sigma of its azimuths and elevations from heading, tilt, mounting, angles and lens; these
+  // errors may be the same in all pictures.
   double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
   Eigen::Vector3d position_sd_enu_m = Eigen::Vector3d::Zero();
   std::int64_t utime_us = 0;  // of the exposure, UTC
@@ -35,7 +35,7 @@ struct StatedPicture {
 // What hides targets from a station: the skyline that it has seen, from one place and with one
 // setup.
 struct HidingSkyline {
-  std::int64_t begun_us = 0;  // UTC of the first picture: tells one skyline from the next
+  std::int64_t begun_us = 0;  // UTC of the first picture; distinguishes one skyline from the next
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   land::SeenSkyline crests;
 };
@@ -54,24 +54,25 @@ class SkylineWatch {
 
   // nullopt while too little of the skyline has been seen.
   const std::optional<SkylineHeading>& heading() const { return heading_; }
-  // 1-sigma of the difference between the two headings: of the skyline's, and of the station's as
+  // 1-sigma of the difference between the heading found from the skyline and the station's, as
   // stated.
   double difference_sd_rad() const;
   bool disagrees() const { return disagrees_; }
-  // Each column as it was seen last. What disagrees with the land counts only once kPictures have
-  // shown it at the same elevation over kApart_s, until a picture shows the land there, or for
-  // kKept_s. Nothing has been seen while it is empty.
+  // Each column as it was seen last; empty before anything is seen. A column that disagrees with
+  // the land counts only once kPictures have shown it at the same elevation over kApart_s. It
+  // counts until a picture shows the land there, or for kKept_s.
   const HidingSkyline& hiding() const { return hiding_; }
-  // Goes on with an earlier one as soon as a picture is taken at its place.
+  // Continues an earlier skyline as soon as a picture is taken at the place where it was seen.
   void resume(HidingSkyline earlier) { earlier_ = std::move(earlier); }
 
   // The heading is wrong, or the land does not fit the station; empty if neither.
   Alarm alarm() const;
 
   static constexpr double kMoved_m = 5.0;
-  // While the land does not fit, the next place is tried sooner: a first fix may have been wrong.
+  // While the land does not fit, a new place is tried sooner, because the first fix may have been
+  // wrong.
   static constexpr double kAgain_m = 0.5;
-  // The edge of a cloud moves meanwhile.
+  // In this time the edge of a cloud moves.
   static constexpr int kPictures = 3;
   static constexpr double kApart_s = 120.0, kSame_rad = radians(0.2);
   static constexpr double kKept_s = 86'400.0;

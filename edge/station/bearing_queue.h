@@ -17,12 +17,14 @@ namespace ols::station {
 
 // What the detector says about an object besides its pixel.
 struct DetectedPixel {
-  bool is_tracklet = true;  // false: of the followed target, with neither velocity nor count
+  // False: the pixel is the followed target's; velocity and image_bearings are not set.
+  bool is_tracklet = true;
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // relative to the scene
   double velocity_sd_px_s = 0.0;                            // 1-sigma, each axis
   double size_px = 0.0, size_sd_px = 0.0;                   // largest extent
   double across_px = 0.0;                                   // smaller side of its upright box
-  // 1-sigma of the largest extent that is new in each image; 0: unknown.
+  // 1-sigma of the part of the largest extent's error that is independent from image to image; 0 if
+  // unknown.
   double size_noise_px = 0.0;
   double signal = 0.0;     // signal-to-noise ratio
   int image_bearings = 0;  // as in DetectedObject

@@ -42,7 +42,8 @@ struct DetectedObject {
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2]
   double size_rad = 0.0, size_sd_rad = 0.0;                   // largest extent
   double across_rad = 0.0;                                    // smaller side of its upright box
-  // 1-sigma of the largest extent that is new in each image; 0: unknown.
+  // 1-sigma of the part of the largest extent's error that is independent from image to image; 0 if
+  // unknown.
   double size_noise_rad = 0.0;
   double signal = 0.0;  // signal-to-noise ratio
 };

@@ -147,8 +147,7 @@ class Drive {
 
   std::deque<Seen> seen_;  // positions of the last second
   Travel pan_travel_, tilt_travel_;
-  bool distrusted_ = false;        // the positions did not follow an order, and have not done so
-                                   // since
+  bool distrusted_ = false;  // the positions did not follow an order, and have followed none since
   double refused_until_s_ = -1e9;  // no motion until then: an order was refused or ignored
   // When the mount was last seen to move without an order, not to stop, to ignore an order.
   std::optional<double> unordered_s_, unstopped_s_, ignored_s_;

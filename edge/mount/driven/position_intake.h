@@ -30,7 +30,7 @@ class PositionIntake {
   };
   explicit PositionIntake(const Config& config) : config_(config) {}
 
-  // An order that was accepted; nullopt: to a place, at a rate that is not known.
+  // An accepted order; nullopt: a move to a place, whose rate is not known.
   void ordered(const std::optional<PanTilt>& rate, double now_s);
   // `ordered_rad_s`: the ordered speed of the faster axis; 0 at rest.
   void add(const PanTilt& angles, double sent_s, double answered_s, double ordered_rad_s);

@@ -1,5 +1,5 @@
 // A mount for a camera that stands still: its angles never change. Orders to move do nothing. The
-// station refuses such orders in words, because the mount's traits say that nothing moves.
+// station refuses such orders and says why, because the mount's traits say that nothing moves.
 #pragma once
 
 #include <atomic>

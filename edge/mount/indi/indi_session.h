@@ -1,8 +1,8 @@
-// A connection to a telescope mount behind an INDI server. Its reported positions are used as they
-// are, as long as it stays on its side of the pier.
+// A connection to a telescope mount behind an INDI server. Its reported positions are used
+// unchanged, as long as it stays on its side of the pier.
 //
-// An INDI telescope keeps its last track rate when its client is gone. If the station was killed,
-// it therefore stops the telescope at its next start.
+// An INDI telescope keeps its last track rate when its client is gone. A station that was killed
+// therefore stops the telescope at its next start.
 #pragma once
 
 #include <functional>

@@ -17,9 +17,9 @@ struct FoundCamera {
 // The question to all cameras. `message_id`: "urn:uuid:...", never used before.
 std::string probe(const std::string& message_id);
 
-// The cameras among all that answers. An answer is refused, with the reason in words, if it is
-// damaged, has a document type, answers another question, is of another kind of device, names no
-// usable address at the host that sent it, or contradicts an earlier one.
+// Finds the cameras among everything that answers. An answer is refused, with the reason in words,
+// if it is damaged, has a document type, answers another question, is of another kind of device,
+// names no usable address at the host that sent it, or contradicts an earlier one.
 class Discovery {
  public:
   static constexpr std::size_t kMostCameras = 64, kMostRefused = 32;

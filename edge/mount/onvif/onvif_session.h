@@ -1,4 +1,4 @@
-// A connection to an ONVIF camera with pan and tilt. Its reported positions are used as they are.
+// A connection to an ONVIF camera with pan and tilt. Its reported positions are used unchanged.
 #pragma once
 
 #include <mutex>

@@ -18,7 +18,7 @@ namespace ols::onvif {
 struct AnswerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// Thrown if the camera refuses a request; has the camera's reason on one line.
+// Thrown if the camera refuses a request; contains the camera's reason on one line.
 struct SoapFault : AnswerError {
   SoapFault(const std::string& words, bool refuses_login)
       : AnswerError(words), not_authorized(refuses_login) {}

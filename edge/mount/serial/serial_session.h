@@ -1,5 +1,5 @@
 // A connection to a pan-tilt head on a serial line. The head keeps its last velocity when its line
-// is dead. If the station was killed, it therefore stops the head at its next start.
+// is dead. A station that was killed therefore stops the head at its next start.
 #pragma once
 
 #include <functional>
