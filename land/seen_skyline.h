@@ -1,4 +1,4 @@
-// The skyline as a station's pictures show it, beside that of the map. Pure.
+// The skyline as a station's pictures show it, in addition to that of the map. Pure.
 //
 // Angles are apparent, in the east-north-up frame at the camera, as in land/horizon_map.h.
 #pragma once
@@ -18,8 +18,8 @@ namespace ols::land {
 struct SeenCrest {
   double elevation_rad = 0.0;
   double sd_rad = 0.0;  // 1-sigma
-  // What stands there hides whatever is at this horizontal distance or beyond. 0: the pictures
-  // change nothing of what the map hides.
+  // Everything at this horizontal distance or beyond is hidden. 0: the pictures do not change what
+  // the map hides.
   double hides_from_m = 0.0;
   // Pictures and map differ by more than their errors. Then the elevation is that of the pictures.
   bool disagrees = false;
@@ -52,8 +52,9 @@ class SeenSkyline {
 
   // The nearest column that has been seen, within 0.1 degrees. nullopt if there is none.
   std::optional<SeenCrest> at(double azimuth_rad) const;
-  // What hides a point at `distance_m`: `model` is what the map has before that distance. A column
-  // beside the azimuth only raises it: between the two may stand the edge of a house.
+  // The elevation below which a point at `distance_m` is hidden. `model`: that of the map up to
+  // this distance. A column beside the azimuth can only raise it, because the edge of a house may
+  // stand between the two.
   Skyline hiding(const Skyline& model, double azimuth_rad, double distance_m) const;
 
  private:

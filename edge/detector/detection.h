@@ -7,9 +7,9 @@
 namespace ols::detector {
 
 enum class Evidence {
-  kSpot,   // a compact spot in front of smooth surroundings, such as the sky
+  kSpot,   // a compact spot against a smooth background, such as the sky
   kMover,  // differs from the aligned scene of a moment ago
-  kStack,  // a point that only the sum of several images shows, shifted along its path
+  kStack,  // a point that only the sum of several images, shifted along its path, shows
 };
 
 // The path of a point that is followed through stacks of images.

@@ -14,8 +14,8 @@ struct ImageTurn {
   PanTilt sd;    // [rad] 1-sigma
 };
 
-// `angles`: of the mount in the earlier image, roughly. The scene is taken to stand still, far
-// away. nullopt if no pan and tilt make that motion.
+// `angles`: of the mount in the earlier image, roughly. The scene is assumed to be far away and at
+// rest. nullopt if no pan and tilt cause that motion.
 std::optional<ImageTurn> image_turn(const ChainParameters& chain, const CameraIntrinsics& camera,
                                     const PanTilt& angles, const tracker::ImageMotion& motion);
 

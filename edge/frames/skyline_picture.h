@@ -11,9 +11,9 @@
 
 namespace ols::station {
 
-// The newest of these frames (oldest first) whose mount's angles are known before and after the
-// exposure, with its pose. nullopt if there is none, if mount or zoom moved during that exposure,
-// or if the station has no position.
+// The newest of these frames (given oldest first) for which the mount's angles are known before and
+// after the exposure, with the camera's pose. nullopt if there is none, if mount or zoom moved
+// during that exposure, or if the station has no position.
 std::optional<skyline::StatedPicture> skyline_picture(const std::deque<camera::Frame>& frames,
                                                       const PointingModel& pointing);
 

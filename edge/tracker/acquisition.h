@@ -1,6 +1,6 @@
 // Finds a target without a designation: a compact object near the expected pixel. It must move
-// against the background as expected, or be alone in front of a smooth background. The conditions
-// are strict, because a wrong object is worse than none. Pure and deterministic.
+// against the background as expected, or be alone against a smooth background. The conditions are
+// strict, because a wrong object is worse than none. Pure and deterministic.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,9 +37,9 @@ struct AcquisitionView {
   Eigen::Vector2d expected_px;  // where the target is expected
   double expected_sd_px = 0.0;
   // Set if only a line is known on which the target is: the line's direction, a unit vector. Then
-  // the expected pixel is any point on the line, and expected_sd_px is the deviation across it. Of
-  // the target's motion only a limit is then known: from frame to frame it can move by drift_px
-  // against the background, and it must move evenly.
+  // the expected pixel is any point on the line, and expected_sd_px is the deviation across it.
+  // Only a limit of the target's motion is then known: from frame to frame the target can move by
+  // drift_px against the background, and it must move evenly.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double drift_px = 0.0;
   std::vector<AcquisitionReference> references;  // newest first

@@ -1,7 +1,7 @@
 // The colours that the target has and its surroundings do not have: two histograms, as in L.
 // Bertinetto, J. Valmadre, S. Golodetz, O. Miksik, P. H. S. Torr, "Staple: complementary learners
-// for real-time tracking", CVPR 2016. They remain when the target turns or changes its posture, and
-// the correlation filter no longer fits.
+// for real-time tracking", CVPR 2016. They still fit when the target turns or changes its posture,
+// so that the correlation filter no longer fits.
 #pragma once
 
 #include <vector>
@@ -17,11 +17,11 @@ enum class Palette { kColour, kHue };
 class ColourLikeness {
  public:
   // Learns from the box of this size in the middle of this window alone. Without a colour image
-  // nothing is learnt, and the likeness is unknown for good.
+  // nothing is learnt, and the likeness stays unknown.
   ColourLikeness(Palette palette, const WindowView& view, const Eigen::Vector2d& size_px);
 
-  // How the colours of a box of this size resemble the target's, for each shift of the target by a
-  // cell: 0 as around the target, 1 as at the target. 0 everywhere if nothing is known.
+  // How much the colours of a box of this size resemble the target's, for each shift of the target
+  // by a cell: 0 like the surroundings, 1 like the target. 0 everywhere if nothing is known.
   Response respond(const WindowView& view, const Eigen::Vector2d& size_px) const;
   // Learns that the target is in the middle of the window, and nowhere else in it. `share` of what
   // is known comes from this image afterwards.

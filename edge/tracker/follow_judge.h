@@ -34,10 +34,11 @@ class FollowJudge {
   // The logarithm of the odds that an object found elsewhere is the target, from this evidence
   // alone.
   double log_odds_elsewhere(const FollowEvidence& evidence) const;
-  // By the response and the background; it decides what the tracker does. A shadow changes the
-  // colours of a target, which must not be dropped or searched for because of that.
+  // The probability by the response and the background, which decides what the tracker does.
+  // Colours are left out, because a shadow changes the colours of a target, which must not be
+  // dropped or searched for because of that.
   double value() const { return value_; }
-  // The same with the colours: what is believed.
+  // The same with the colours, for the published belief.
   double belief() const { return belief_; }
   bool sure() const;
   bool believes() const;

@@ -39,7 +39,7 @@ class ReferenceFrames {
 };
 
 // Used if no earlier image shows the background alone: |frame - `level`|, where `level` is the grey
-// level around the target. In front of a plain sky the result is the same.
+// level around the target. Against a plain sky the result is the same.
 FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
                           const Template& target);
 

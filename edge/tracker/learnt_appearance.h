@@ -30,13 +30,13 @@ class LearntAppearance {
   // The filter's response there, relative to the deviation of its response elsewhere; 0 where no
   // search took place.
   double prominence(const Eigen::Vector2d& pixel) const;
-  // How the colours there resemble those that the target had at first: 0 as elsewhere in the
-  // window, 1 as at the target then. 0 where no search took place.
+  // How much the colours there resemble those that the target had at first: 0 like the rest of the
+  // window, 1 like the target then. 0 where no search took place.
   double first_colours(const Eigen::Vector2d& pixel) const;
   // ColourLikeness::separability() then; 0 where no search in a colour image took place.
   double first_separability(const Eigen::Vector2d& pixel) const;
-  // Learns that the target is at `pixel` of the newest frame: less of it, the less its colours are
-  // the target's.
+  // Learns that the target is at `pixel` of the newest frame. The less the colours there are the
+  // target's, the less is learnt.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
              const Eigen::Vector2d& size_px, double interval_s);
 
