@@ -1,4 +1,4 @@
-// Tests the groups of an adjustment, from its equations.
+// Statistical tests of an adjustment's groups of observations, computed from its normal equations.
 #pragma once
 
 #include <Eigen/Core>
@@ -45,7 +45,7 @@ struct GroupTest {
 
 std::vector<GroupTest> tests_of(const Adjustment& adjustment, const Fit& fit, double level);
 
-// A start of the adjustment: headings of the stations, and the groups that agree with the priors at
+// Where the adjustment starts: the stations' headings, and the groups that agree with the priors at
 // these headings.
 struct Start {
   State state;

@@ -9,7 +9,8 @@ struct Ellipse {
   double semi_major_m = kUnknown, semi_minor_m = kUnknown;  // 1-sigma
   double azimuth_deg = 0.0;  // of the major axis, clockwise from north, 0..180
 };
-// The ellipse of the horizontal part; all values are unknown if it is no covariance.
+// The ellipse of the horizontal part; all values are unknown if that part is not a valid
+// covariance.
 Ellipse ellipse_of(const Covariance& enu);
 // 1-sigma of one axis; unknown if the variance is negative or not finite.
 double sd(double variance);

@@ -65,7 +65,10 @@ class SlewSchedule {
   // How often the line of this object has had its turn to be searched; nullopt: it must not be
   // searched now.
   std::optional<int> turn_of(const TrackletName& tracklet);
-  // Sorts the lines: the first is searched. See cue().
+  // The sort key of a line of sight; the line with the smallest key is searched. In order: false if
+  // an operator designated the object; how many turns this object's line has had; whether the
+  // station that sees it is itself led; false if this station's line is the one that is being
+  // searched; the station.
   using LineKey = std::tuple<bool, int, bool, bool, std::string>;
   struct SearchedLine {
     BearingMeasurement newest;
@@ -87,8 +90,10 @@ class SlewSchedule {
   std::vector<std::string> staring_;
   SlewPlanner planner_;
   SlewRound round_;
-  std::map<std::string, std::int64_t> let_go_;  // by station: what its tracker follows
-  // By station: the target that it sees, while it is lent to another one or to a line.
+  // Stations whose trackers are to let their objects go: the track_id that each tracker follows.
+  std::map<std::string, std::int64_t> let_go_;
+  // Stations that see one target but are lent to another target or to a line: the target that each
+  // of them sees.
   std::map<std::string, std::int64_t> lent_;
   std::optional<std::pair<LineKey, SearchedLine>> line_;  // the line along which stations search
   // What is known of objects that stations see, with and without a position.

@@ -1,5 +1,5 @@
-// Persists the sensors' pose in a file, so that a station has a position even if it restarts while
-// its receiver has no fix.
+// Persists the station's pose, as its sensors have measured it, in a file. So a station that
+// restarts while its receiver has no fix still has a position.
 #pragma once
 
 #include <string>

@@ -2,17 +2,17 @@
 //
 // The difference between the two, at one azimuth:
 //
-//   seen - modelled elevation = slope * heading error          (moves the skyline along itself)
+//   seen - modelled elevation = slope * heading error          (turns the skyline sideways)
 //     + level, tilt towards east and north                     (of the station)
-//     + offset of the camera in the model: east, north, up     (seen under distance)
+//     + offset of the camera in the model: east, north, up     (its effect is divided by distance)
 //     + refraction
 //     + error of the model there + error of the pictures
 //
-// The model's error has the sigma that the land states. It is about the same along a crest, over
-// kLowered_m on the ground, and independent on another ridge. So many pictures of one crest say
-// little more than one picture, but a whole horizon says much more. The error is a first-order
-// Markov process along the skyline, so all of it is solved exactly, in time proportional to the
-// number of places.
+// The model's error has the sigma that the land states. Along one crest it stays about the same for
+// land::kLowered_m; on different ridges it is independent. Therefore many pictures of one crest
+// tell little more than one picture, but a whole horizon tells much more. The error is modelled as
+// a first-order Markov process along the skyline. The unknowns are therefore solved for together
+// and exactly, in time proportional to the number of places.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,8 +33,8 @@ struct SkylineHeading {
 // keep the estimate within the range in which the finder looks.
 struct StationSd {
   double heading_rad = kHeadingSd_rad, tilt_rad = kTiltSd_rad;
-  // Of the camera's place (east, north, up) relative to the model as a whole: of the station's
-  // position and of the model.
+  // Of the camera's place in the model (east, north, up). It contains the station's position error
+  // and a shift of the whole model.
   Eigen::Vector3d place_enu_m = Eigen::Vector3d::Zero();
 };
 

@@ -27,8 +27,8 @@ class ProcedureSession {
   bool is_replaying() const { return !replay_.empty(); }
   // True, once, if the next recorded event was a resumption.
   bool take_resumed();
-  // [us] When the order was given whose result is replayed next. nullopt: there is none, or the
-  // journal does not say.
+  // The time [us] of the order whose result is replayed next. nullopt: there is no such order, or
+  // the journal states no time.
   std::optional<std::int64_t> replayed_utime_us() const;
   // The recorded result of this order; call only while replaying. Throws std::runtime_error if the
   // journal belongs to another procedure.
