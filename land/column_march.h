@@ -18,12 +18,12 @@ struct MarchSettings {
   // The surface is lowered by this amount at the camera, and by less with growing distance, down to
   // nothing at kLowered_m.
   double lowered_m = 0.0;
-  // The camera is below a roof or tree-tops; these are ignored up to their edge.
+  // The camera is below a roof or tree-tops; these are ignored as far as their edge.
   bool covered = false;
 };
 
-// The distance over which the error of an elevation model stays about the same: some samples of the
-// usual models.
+// The distance over which the error of an elevation model stays about the same. In the usual models
+// it is a few samples.
 inline constexpr double kLowered_m = 300.0;
 
 // Adds the azimuth's steps to `steps`. Returns the distance at which the surface ends or has its

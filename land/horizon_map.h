@@ -1,5 +1,5 @@
-// What the land hides from a camera: for each azimuth a staircase of (elevation, distance), where
-// the elevation is the highest of the land up to that distance.
+// What the land hides from a camera: for each azimuth a staircase of (elevation, distance). The
+// elevation is the highest elevation of the land up to that distance.
 //
 // Angles are apparent angles: in the east-north-up frame at the camera (geometry/direction.h),
 // lifted by terrestrial refraction, k d^2 / 2R. Points of the surface are converted by exact WGS84

@@ -5,7 +5,7 @@ namespace ols::land {
 
 // Light bends towards the earth: over a distance d it falls below the straight line by refraction_k
 // d^2 / 2 R. (The earth's surface falls by d^2 / 2 R.) Over land in daylight refraction_k is about
-// 0.13, with a 1-sigma of 0.1, which is 0.3 m at 6 km.
+// 0.13, with a 1-sigma of 0.1. At 6 km, this 1-sigma is 0.3 m.
 inline constexpr double kRefraction = 0.13, kRefractionSd = 0.1;
 
 // The amount that refraction adds to the tangent of an elevation.

@@ -14,7 +14,7 @@
 
 namespace ols::land {
 
-// One azimuth: map and pictures, fused by their errors.
+// One azimuth: map and pictures, combined according to their errors.
 struct SeenCrest {
   double elevation_rad = 0.0;
   double sd_rad = 0.0;  // 1-sigma
@@ -53,8 +53,8 @@ class SeenSkyline {
   // The nearest column that has been seen, within 0.1 degrees. nullopt if there is none.
   std::optional<SeenCrest> at(double azimuth_rad) const;
   // The elevation below which a point at `distance_m` is hidden. `model`: that of the map up to
-  // this distance. A column beside the azimuth can only raise it, because the edge of a house may
-  // stand between the two.
+  // this distance. If only a column beside the azimuth has been seen, it can only raise this
+  // elevation, because the edge of a house may stand between that column and the azimuth.
   Skyline hiding(const Skyline& model, double azimuth_rad, double distance_m) const;
 
  private:

@@ -14,7 +14,8 @@ namespace ols::land {
 
 struct TerrainFolder {
   Manifest manifest;
-  // The first digits of the manifest's SHA-256, so that it changes with any content.
+  // The first digits of the manifest's SHA-256. So the version changes whenever anything in the
+  // folder does.
   std::string version;
   std::shared_ptr<const Terrain> terrain;
 };

@@ -38,8 +38,8 @@ class CommandGate {
     // fresh again if the clock were set back. It corresponds to four minutes of slews.
     std::size_t kept = 4096;
     // Largest number of remembered commands. Forged commands with the latest stamp can block others
-    // only if more than this number arrive within the margin, at 130 000 a second: more than a
-    // station can read.
+    // only if more than this number arrive within the margin. That would be 130 000 a second, more
+    // than a station can read.
     std::size_t most = 65536;
   };
   // Commands stamped before `began_utime_us` are refused as replayed: the previous process may have

@@ -1,5 +1,6 @@
-// Records the messages that were refused, before or by the station: their number, the text of the
-// last refusal, and an alarm if commands are repeatedly refused because they are not fresh. Pure.
+// Records refused messages, whether they were refused by the station or before they reached it:
+// their number, the text of the last refusal, and an alarm if commands are repeatedly refused
+// because they are not fresh. Pure.
 #pragma once
 
 #include <cstdint>

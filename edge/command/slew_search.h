@@ -54,7 +54,7 @@ class SlewSearch {
     bool by_tracklet = false;    // found by the detector
   };
   // Finds the object that behaves as the slew predicts. If exactly one confirmed object of the
-  // detector does, it is returned; otherwise an object found in these frames (oldest first).
+  // detector behaves so, it is returned; otherwise an object found in these frames (oldest first).
   std::optional<Acquired> acquire(const std::deque<camera::Frame>& frames,
                                   const std::optional<detector::Found>& found,
                                   const PointingModel& pointing, const Slew& slew);

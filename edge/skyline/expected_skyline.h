@@ -14,7 +14,7 @@
 
 namespace ols::skyline {
 
-// 1-sigma of heading and tilt that is added to what the station states, so that larger errors than
+// 1-sigma of heading and tilt that is added to what the station states, so that errors larger than
 // stated are still found at once.
 inline constexpr double kHeadingSd_rad = radians(0.3), kTiltSd_rad = radians(0.1);
 
@@ -22,12 +22,13 @@ inline constexpr double kHeadingSd_rad = radians(0.3), kTiltSd_rad = radians(0.1
 struct PictureView {
   Eigen::Matrix3d R_enu_cam = Eigen::Matrix3d::Identity();  // in the frame of the map's camera
   CameraIntrinsics camera;
-  // 1-sigma of its directions, as the station states it.
+  // 1-sigma of the picture's directions, as the station states it.
   double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
 };
 
-// The map's skyline. If nearer land is only so little lower that with the map's errors it may cover
-// the crest, the sigma is that of the nearer land. nullopt where the land is unknown.
+// The map's skyline. Nearer land may be lower than the crest by so little that, with the map's
+// errors, it may cover the crest. The sigma is then that of the nearer land. nullopt where the land
+// is unknown.
 std::optional<land::Skyline> uncertain_skyline(const land::HorizonMap& map, double azimuth_rad);
 
 // The row of the land's skyline in each strip of a picture. The sigmas are wide enough for a

@@ -1,5 +1,4 @@
-// A station's seen skyline as it is saved for the time after a restart, and its text in a file.
-// Pure.
+// A station's seen skyline as it is saved over a restart, and its text in a file. Pure.
 //
 //   ols-skyline 1
 //   station ID
@@ -22,8 +21,9 @@
 
 namespace ols::skyline {
 
-// Directions are comparable only from one station with one calibration and geometry: an operator
-// may change the configured heading and keep the calibration.
+// Identifies the setup in which a skyline was seen. Directions can be compared only if they are
+// from the same setup. The calibration's id is not enough, because an operator may change the
+// configured heading and keep the calibration.
 struct SkylineOwner {
   std::string station;
   std::int64_t calibration_id = 0;
@@ -32,7 +32,7 @@ struct SkylineOwner {
   bool operator==(const SkylineOwner&) const = default;
 };
 
-// Of heading, tilt, mounting and encoders, each to the microradian.
+// A hash of heading, tilt, mounting and encoders, each to the microradian.
 std::uint64_t chain_hash(const ChainParameters& chain);
 
 struct SavedSkyline {
@@ -45,7 +45,7 @@ std::string to_text(const SavedSkyline& saved);
 // Returns the skyline in the text, or an error that names the line.
 std::variant<SavedSkyline, std::string> saved_skyline_from(std::string_view text);
 
-// Why `owner` cannot use it; empty if it can.
+// The reason why `owner` cannot use `saved`; empty if it can.
 std::string why_not_used(const SavedSkyline& saved, const SkylineOwner& owner);
 
 }  // namespace ols::skyline

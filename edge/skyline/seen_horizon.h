@@ -16,8 +16,8 @@ struct SeenPlace {
   // places.
   double azimuth_variance_rad2 = 0.0;
   double newest_s = 0.0;  // time of the newest of its pictures
-  double oldest_s = 0.0;  // and of the first
-  int pictures = 1;       // as many as are averaged: SeenHorizon::kMost at most
+  double oldest_s = 0.0;  // time of the first of its pictures
+  int pictures = 1;       // number that is averaged; at most SeenHorizon::kMost
 };
 
 // Several pictures of the same place are averaged. This reduces the noise of the pictures, but not
@@ -38,7 +38,7 @@ class SeenHorizon {
   std::vector<SeenPlace> places() const;
 
   static constexpr int kColumns = 7200;  // as many as a map has
-  // The newest picture has at least this share of the mean at its places: one in kMost.
+  // At each of its places, the newest picture has at least the weight 1 / kMost in the mean.
   static constexpr int kMost = 5;
   static constexpr double kMemory_s = 1800.0;
 

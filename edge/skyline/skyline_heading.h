@@ -1,4 +1,5 @@
-// The error of a station's heading, from the skyline that it has seen and that of the land. Pure.
+// The error of a station's heading, estimated from the skyline that the station has seen and the
+// skyline of the land. Pure.
 //
 // The difference between the two, at one azimuth:
 //

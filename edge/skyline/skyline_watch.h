@@ -54,8 +54,8 @@ class SkylineWatch {
 
   // nullopt while too little of the skyline has been seen.
   const std::optional<SkylineHeading>& heading() const { return heading_; }
-  // 1-sigma of the difference between the heading found from the skyline and the station's, as
-  // stated.
+  // 1-sigma of the difference between the heading that the skyline shows and the heading that the
+  // station states.
   double difference_sd_rad() const;
   bool disagrees() const { return disagrees_; }
   // Each column as it was seen last; empty before anything is seen. A column that disagrees with
@@ -72,7 +72,7 @@ class SkylineWatch {
   // While the land does not fit, a new place is tried sooner, because the first fix may have been
   // wrong.
   static constexpr double kAgain_m = 0.5;
-  // In this time the edge of a cloud moves.
+  // The edge of a cloud moves within kApart_s.
   static constexpr int kPictures = 3;
   static constexpr double kApart_s = 120.0, kSame_rad = radians(0.2);
   static constexpr double kKept_s = 86'400.0;
@@ -101,7 +101,7 @@ class SkylineWatch {
   std::map<int, double> disagreed_s_;  // when the columns that disagree were seen last
   std::optional<HidingSkyline> earlier_;
   std::optional<SkylineHeading> heading_;
-  double stated_sd_rad_ = 0.0;  // of the azimuths that `heading_` is from
+  double stated_sd_rad_ = 0.0;  // of the azimuths from which `heading_` comes
   bool disagrees_ = false;
 };
 
