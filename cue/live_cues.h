@@ -12,7 +12,8 @@
 
 namespace ols::cues {
 
-// What is assumed if a source states no errors, and which objects are wanted.
+// The errors that are assumed if a source states none, and the limits within which objects are
+// wanted.
 struct InputRules {
   std::string name;
   Area area_deg{-90.0, -180.0, 90.0, 180.0};
@@ -21,7 +22,7 @@ struct InputRules {
   double pressure_height_sd_m = 300.0;  // error of a pressure altitude, taken as a height above the
                                         // ellipsoid
   double velocity_sd_m_s = 3.0;         // error of a stated velocity
-  double speed_sd_m_s = 15.0;           // of a target whose velocity is unknown, each axis
+  double speed_sd_m_s = 15.0;           // 1-sigma of an unknown velocity, on each axis
 };
 
 // A complete cue: all values are finite.

@@ -1,4 +1,4 @@
-// Data about one object from an input, or the reason why they are not used.
+// What an input reports about one object, or the reason why the report is not used.
 #pragma once
 
 #include <array>

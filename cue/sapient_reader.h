@@ -25,7 +25,7 @@ class SapientReader {
   Readings take(const std::string& message);
 
  private:
-  // What is known about a node; its detections refer to it.
+  // What is needed to read a node's detections: they are relative to its place, and use its units.
   struct Node {
     std::optional<Geodetic> place;
     double speed_unit_m_s = 1.0;

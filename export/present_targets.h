@@ -1,5 +1,6 @@
-// The present targets. Reports the end of each once, with its last position. It does so even if the
-// fusion has stopped before it reported the end, or reported it without a position. Pure.
+// The present targets. Reports the end of each once, with its last position. The end is also
+// reported if the fusion has stopped before reporting it, or has reported it without a position.
+// Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Replaces libprotobuf's warnings, one line on standard error for each damaged message, by a count.
-// Damaged messages from others would otherwise fill the log.
+// Counts libprotobuf's warnings instead of printing them. The library prints one line on standard
+// error for each damaged message, so damaged messages from others would fill the log.
 #pragma once
 
 #include <cstdint>

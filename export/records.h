@@ -84,7 +84,7 @@ struct Line {
 struct Incident {
   std::int64_t utime_us = 0;
   std::string uid;
-  std::int64_t number = 0;  // of the console that watches
+  std::int64_t number = 0;  // given by the console that watches
   std::string area;
   std::int64_t target_id = 0;
   std::string target_uid;

@@ -39,7 +39,7 @@ struct AcquisitionView {
   // Set if only a line is known on which the target is: the line's direction, a unit vector. Then
   // the expected pixel is any point on the line, and expected_sd_px is the deviation across it.
   // Only a limit of the target's motion is then known: from frame to frame the target can move by
-  // drift_px against the background, and it must move evenly.
+  // drift_px against the background, and its motion must be steady.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double drift_px = 0.0;
   std::vector<AcquisitionReference> references;  // newest first

@@ -34,7 +34,7 @@ struct Typical {
 double frame_belief(const FrameEvidence& evidence, const Typical& typical);
 
 // The belief is smoothed over time, so that one poor frame does not lose the target. If the target
-// has gone, it falls below 0.5 within a third of a second.
+// has gone, the belief falls below 0.5 within a third of a second.
 class Belief {
  public:
   void start() {

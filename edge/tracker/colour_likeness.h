@@ -16,15 +16,15 @@ enum class Palette { kColour, kHue };
 
 class ColourLikeness {
  public:
-  // Learns from the box of this size in the middle of this window alone. Without a colour image
-  // nothing is learnt, and the likeness stays unknown.
+  // Learns from this one window, with the target in a box of this size in its middle. Without a
+  // colour image nothing is learnt, and the likeness stays unknown.
   ColourLikeness(Palette palette, const WindowView& view, const Eigen::Vector2d& size_px);
 
   // How much the colours of a box of this size resemble the target's, for each shift of the target
   // by a cell: 0 like the surroundings, 1 like the target. 0 everywhere if nothing is known.
   Response respond(const WindowView& view, const Eigen::Vector2d& size_px) const;
-  // Learns that the target is in the middle of the window, and nowhere else in it. `share` of what
-  // is known comes from this image afterwards.
+  // Learns that the target is in the middle of the window, and nowhere else in it. Afterwards, the
+  // share `share` of what is known comes from this image.
   void learn(const WindowView& view, const Eigen::Vector2d& size_px, double share);
 
   // How well the colours separate the target from its surroundings, 0..1. It is measured in the
@@ -38,11 +38,11 @@ class ColourLikeness {
   void learn_level(const Response::Contrast& seen, double share);
 
   Palette palette_;
-  // Of each colour, a sum of 1 over all colours.
+  // The share of each colour; the sum over all colours is 1.
   std::vector<float> target_, around_;
   std::vector<float> probability_;  // that a pixel of this colour is the target's
-  // Of the mean probability in a box: around the target, with its variance; and how much more it is
-  // at the target.
+  // The mean probability of a box's pixels: its average and variance around the target, and by how
+  // much it is higher at the target.
   double level_ = 0.0, variance_ = 0.0, above_ = 0.0;
 };
 

@@ -29,9 +29,9 @@ struct Response {
   double at(const Eigen::Vector2d& pixel) const;
   Peak peak() const;
   Contrast contrast(const Eigen::Vector2d& pixel) const;
-  // The response at a pixel minus the mean of the response elsewhere, over its standard deviation
-  // (peak-to-sidelobe ratio: D. S. Bolme et al., "Visual object tracking using adaptive correlation
-  // filters", CVPR 2010).
+  // The response at a pixel minus the mean of the response elsewhere, divided by the standard
+  // deviation of the response elsewhere (peak-to-sidelobe ratio: D. S. Bolme et al., "Visual object
+  // tracking using adaptive correlation filters", CVPR 2010).
   double prominence(const Eigen::Vector2d& pixel) const;
 };
 
@@ -40,13 +40,13 @@ FeatureWindow window_around(const Eigen::Vector2d& pixel, const Eigen::Vector2d&
 
 class CorrelationFilter {
  public:
-  // Learns from the box of this size in the middle of this window alone.
+  // Learns from this one window, with the target in a box of this size in its middle.
   CorrelationFilter(const WindowView& view, const Eigen::Vector2d& size_px);
 
   Response respond(const WindowView& view) const;
   // Learns that the target is in the middle of the window, and nowhere else in it. The filter
-  // changes no more than this requires, so it hardly drifts. `share`: the weight of this image, 1
-  // of an image that certainly shows the target.
+  // changes no more than this requires, so it hardly drifts. `share`: the weight of this image; 1
+  // for an image that certainly shows the target.
   void learn(const WindowView& view, double share);
 
  private:

@@ -21,7 +21,7 @@ struct FollowEvidence {
 // The natural logarithm of the odds that the object is the target, without its colours. `own`: the
 // target's prominence when it was designated.
 double follow_log_odds(const FollowEvidence& evidence, double own);
-// What is added to them by the colours.
+// What the colours add to these log-odds.
 double colour_log_odds(const FollowEvidence& evidence);
 
 // The probability, smoothed over time, that the followed object is the target.
@@ -34,17 +34,17 @@ class FollowJudge {
   // The logarithm of the odds that an object found elsewhere is the target, from this evidence
   // alone.
   double log_odds_elsewhere(const FollowEvidence& evidence) const;
-  // The probability by the response and the background, which decides what the tracker does.
-  // Colours are left out, because a shadow changes the colours of a target, which must not be
-  // dropped or searched for because of that.
+  // The probability from the response and the background. It decides what the tracker does. It
+  // leaves the colours out, because a target whose colours change in a shadow must be neither
+  // dropped nor searched for.
   double value() const { return value_; }
   // The same with the colours, for the published belief.
   double belief() const { return belief_; }
   bool sure() const;
   bool believes() const;
   bool doubts() const;
-  // Whether there has been doubt without belief since: the tracker may then be following an object
-  // that covered the target.
+  // True from the moment of doubt until the target is believed again. Meanwhile the tracker may be
+  // following an object that covered the target.
   bool wary() const { return wary_; }
   // Whether the doubt has lasted so long that the followed object is probably not the target.
   bool lets_go() const;

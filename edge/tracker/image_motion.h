@@ -7,8 +7,8 @@ namespace ols::tracker {
 
 struct ImageMotion {
   Eigen::Matrix3d homography;  // maps full-frame pixels of the earlier frame to the later one
-  // The middle of the corners that agree with it, in the earlier frame: there the motion is known
-  // best, with this 1-sigma in each direction.
+  // The middle, in the earlier frame, of the corners that agree with the homography. The motion is
+  // known best there; its 1-sigma in each direction is sd_px.
   Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
   double sd_px = 0.0;
 };

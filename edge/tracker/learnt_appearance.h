@@ -27,13 +27,14 @@ class LearntAppearance {
   // The response of filter and colours at a pixel of the newest frame, relative to the usual one; 0
   // where no search took place.
   double recognised(const Eigen::Vector2d& pixel) const;
-  // The filter's response there, relative to the deviation of its response elsewhere; 0 where no
-  // search took place.
+  // The filter's response at that pixel, relative to the deviation of its response elsewhere; 0
+  // where no search took place.
   double prominence(const Eigen::Vector2d& pixel) const;
-  // How much the colours there resemble those that the target had at first: 0 like the rest of the
-  // window, 1 like the target then. 0 where no search took place.
+  // How much the colours at that pixel resemble those that the target had at first: 0 like the rest
+  // of the window, 1 like the target at first. 0 where no search took place.
   double first_colours(const Eigen::Vector2d& pixel) const;
-  // ColourLikeness::separability() then; 0 where no search in a colour image took place.
+  // ColourLikeness::separability() of the target's first colours; 0 where no search in a colour
+  // image took place.
   double first_separability(const Eigen::Vector2d& pixel) const;
   // Learns that the target is at `pixel` of the newest frame. The less the colours there are the
   // target's, the less is learnt.

@@ -14,7 +14,7 @@ struct MoverCandidate {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // its centroid, in full-frame pixels
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();
   cv::Rect2d box;  // [px] in the full frame
-  // Of its difference, in standard deviations of the image's own differences.
+  // How strong its difference is, in standard deviations of the image's own differences.
   double strength = 0.0;
 };
 

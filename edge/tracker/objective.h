@@ -28,10 +28,10 @@ struct Similarity {
 };
 
 // Eq. (5) divided by its maximum for this template, so that it is 0..1. The intensities of each
-// patch are taken relative to their mean, in units of their deviation (but not of a deviation far
-// below the template's). A faint target is therefore distinguished from the sky as well as a strong
-// one. Exposure and gradients of the sky do not matter, and noise is not amplified into a target.
-// An empty mask counts as zero everywhere.
+// patch are taken relative to their mean, in units of their deviation. A faint target is therefore
+// distinguished from the sky as well as a strong one, and exposure and gradients of the sky do not
+// matter. The unit has a lower limit, derived from the template, so that noise is not amplified
+// into a target. An empty mask counts as zero everywhere.
 class Objective {
  public:
   explicit Objective(const Template& target);

@@ -19,7 +19,7 @@ class PointMeasurement {
  public:
   // `placed`: the fit of a box with the filter's size. `place`: the point's position relative to
   // the box's centre, in sizes of the box. Tracking uses the size on which the particles agree,
-  // because blurred images do not mislead it. The output uses the size that this image shows.
+  // because blurred images do not change that size. The output uses the size that this image shows.
   MeasuredPoint measure(const TargetModel& target, const Scene& scene,
                         const RefinedPosition& placed, const Eigen::Vector2d& filter_size_px,
                         const Eigen::Vector2d& place, double interval_s);

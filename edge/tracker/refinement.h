@@ -34,7 +34,7 @@ struct RefinedPosition {
 
 class PositionRefiner {
  public:
-  // Keeps the target's image on the pixel grid of the sampled view, with a little beyond the box.
+  // Keeps the target's image on the pixel grid of the sampled view, with a margin around the box.
   PositionRefiner(const FrameView& view, const Eigen::Vector2d& pixel,
                   const Eigen::Vector2d& size_px);
 
@@ -42,10 +42,10 @@ class PositionRefiner {
   // on.
   void set_mask(const MaskPatch& mask);
 
-  // Starts from the centre of a box within about a third of the target. nullopt if it does not
-  // converge, if the target has too little structure, or if half of it is outside the image. The
-  // size is kept at `size_px`. If a likely size is given, the size is estimated too, starting from
-  // it.
+  // `start`: the centre of a box, wrong by at most about a third of the target's size. nullopt if
+  // the fit does not converge, if the target has too little structure, or if half of the target is
+  // outside the image. The size is kept at `size_px`. If a likely size is given, the size is
+  // estimated too, starting from it.
   std::optional<RefinedPosition> refine(
       const FrameView& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
       const std::optional<Eigen::Vector2d>& likely_size_px = std::nullopt) const;

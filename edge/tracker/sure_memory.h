@@ -16,7 +16,8 @@ class SureMemory {
     // Where the target would be in the newest frame if it had continued, and if it had stopped
     // relative to the scene.
     Particle moving, still;
-    Eigen::Vector2d seen_px;  // its position in the image, because a camera follows its target
+    // Its position in the image at that time. A camera that follows its target keeps it there.
+    Eigen::Vector2d seen_px;
     double time_s = 0.0;
   };
 

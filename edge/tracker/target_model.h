@@ -65,13 +65,14 @@ class TargetModel {
   // `target`; otherwise it is the last size, grown as the present appearance has grown.
   Eigen::Vector2d follow_size(const cv::Mat& gray, const Particle& target,
                               const std::optional<Eigen::Vector2d>& measured, double interval_s);
-  // Call if the object followed since the target had this size was another one.
+  // Call if another object has been followed since the target had this size.
   void restart_size(const Eigen::Vector2d& size_px);
 
   // Learns M_t once: the candidate's foreground, while the candidate is certainly the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
-  // The best fit of a box of this size. The start must be within about a third of the target.
+  // The best fit of a box of this size. The start may be wrong by about a third of the target's
+  // size.
   std::optional<RefinedPosition> place(const Scene& scene, const Eigen::Vector2d& start,
                                        const Eigen::Vector2d& size_px) const {
     return refiner_.refine(scene.view, start, size_px);

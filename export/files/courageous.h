@@ -1,6 +1,6 @@
 // COURAGEOUS, the JSON by which counter-drone systems are compared (format 0.4.1, CWA 18150).
-// Targets are its tracks, stations' bearings its detections. Heights above sea level. It has no
-// fields for uncertainties. Pure.
+// Targets become its tracks, stations' bearings its detections. Heights are above sea level. The
+// format has no fields for uncertainties. Pure.
 #pragma once
 
 #include <cmath>

@@ -14,7 +14,8 @@ std::string slot_topic(const std::string& prefix, std::size_t slot);
 
 // A place on the map, with height, speed and state as sensors.
 Packets discover_slot(const MqttSettings& settings, const std::string& site, std::size_t slot);
-// State and direction as sensors, and whether the station has an alarm. `word`: its name in topics.
+// State and direction as sensors, and whether the station has an alarm. `word`: the station's name
+// in topics.
 Packets discover_station(const MqttSettings& settings, const std::string& site,
                          const std::string& word, const std::string& name);
 

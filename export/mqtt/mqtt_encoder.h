@@ -9,8 +9,8 @@
 //                           repeated before it becomes stale
 //   PREFIX/station/NAME     retained
 //   PREFIX/line/NAME        the station's line of sight
-//   PREFIX/incidents        every target in an area that is watched, each second and when it
-//   changes
+//   PREFIX/incidents        every target in a watched area, each second and when the incident
+//                           changes
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// A connection to a SAPIENT receiver. Sends nothing else before the receiver has accepted the
-// registration.
+// A connection to a SAPIENT receiver. Until the receiver has accepted the registration, nothing
+// else is sent.
 #pragma once
 
 #include "export/outlet/stream_link.h"

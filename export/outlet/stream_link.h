@@ -20,8 +20,8 @@ struct TlsFiles {
 
 class StreamLink : public Link {
  public:
-  // With the scheme tls, the receiver's certificate must be from an authority in `ca` and for its
-  // host.
+  // With the scheme tls, the receiver's certificate must be from an authority in `ca`, and must be
+  // issued for the host of `address`.
   StreamLink(const Address& address, TlsFiles files);
   ~StreamLink() override;
 

@@ -1,4 +1,4 @@
-// A TCP connection, each of whose calls has a time limit.
+// A TCP connection. Each call has a time limit.
 #pragma once
 
 #include <string>

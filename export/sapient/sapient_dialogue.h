@@ -18,7 +18,7 @@ class SapientDialogue {
   explicit SapientDialogue(SapientSettings settings) : settings_(std::move(settings)) {}
 
   // Takes bytes in any pieces; returns the answers. Throws std::runtime_error, in words for a
-  // person, if they are not SAPIENT.
+  // person, if the bytes are not SAPIENT.
   std::vector<std::string> take(std::string_view bytes, std::int64_t utime_us);
   // The connection starts again.
   void clear();

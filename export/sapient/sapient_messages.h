@@ -24,8 +24,8 @@ std::string sapient_detection(const SapientSettings& settings, const Target& tar
 std::string sapient_task_refusal(const SapientSettings& settings, const std::string& task_id,
                                  const std::string& to, std::int64_t utime_us);
 
-// Types of detection information that begin so are ours. A detection that contains one was sent by
-// an ols-export, so ols-cue does not take it for a target of another system.
+// Types of detection information that begin with this text are ours. A detection that contains one
+// was sent by an ols-export, so ols-cue does not take it for a target of another system.
 inline constexpr const char* kSapientOwn = "ols.";
 
 }  // namespace ols::exports

@@ -3,7 +3,7 @@
 // CoTtypes.xml). Pure.
 //
 // `ce` and `le` are the schema's one-sigma errors: ce is the larger semi-axis of the horizontal
-// ellipse, le that of the height. The whole covariance is in <_ols_> of the detail.
+// ellipse, le the 1-sigma of the height. The whole covariance is in <_ols_> of the detail.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace ols::exports {
 struct CotSettings {
   std::string target_type = "a-u-A";       // an unknown object in the air; for a drone a-u-A-M-F-Q
   std::string station_type = "a-f-G-E-S";  // a friendly sensor on the ground
-  double stale_s = 10.0;                   // a client fades it after this time
+  double stale_s = 10.0;                   // a client fades an event after this time
   double line_m = 5000.0;                  // drawn length of a line
 };
 
@@ -39,7 +39,7 @@ CotEvent cot_event(const Station& station, const CotSettings& settings);
 // An alert for a breached geo-fence, as ATAK sends and shows it. Once the target has left or was
 // dismissed: the cancellation of that alert.
 CotEvent cot_event(const Incident& incident, const CotSettings& settings);
-// A range-and-bearing line from its camera.
+// A range-and-bearing line from the station's camera.
 CotEvent cot_event(const Line& line, const CotSettings& settings);
 
 }  // namespace ols::exports
