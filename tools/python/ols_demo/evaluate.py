@@ -92,14 +92,46 @@ def in_central_third(recording: Recording, station: str, window: tuple[int, int]
     return float(np.mean((np.abs(centres - 0.5) < 1 / 6).all(axis=1)))
 
 
-def bearings_inside(recording: Recording, station: str, window: tuple[int, int]) -> int:
-    """Number of bearings of this station inside the window."""
-    return sum(window[0] <= b.utime <= window[1] for b in recording.bearings.get(station, []))
+def bearings_inside(recording: Recording, station: str, window: tuple[int, int]) -> list[Any]:
+    """The bearings of this station inside the window."""
+    return [b for b in recording.bearings.get(station, []) if window[0] <= b.utime <= window[1]]
+
+
+def off_truth(bearing: Any, truth_ecef_m: np.ndarray) -> np.ndarray:
+    """(2,) a bearing minus the direction of the true position [rad]: cross-elevation, elevation."""
+    camera = np.array(bearing.camera_ecef_m)
+    east, north, up = np.asarray(ols.R_ecef_enu(camera)).T @ (truth_ecef_m - camera)
+    elevation = np.arctan2(up, np.hypot(east, north))
+    azimuth_off = np.angle(np.exp(1j * (bearing.azimuth_rad - np.arctan2(east, north))))
+    return np.array([azimuth_off * np.cos(elevation), bearing.elevation_rad - elevation])
+
+
+def bearing_accuracy(recording: Recording, bearings: list[Any]) -> dict[str, list[float]]:
+    """RMS error, and what the bearings state [deg]: cross-elevation, elevation."""
+    truth = recording.truth_at(np.array([b.utime for b in bearings], dtype=np.int64))
+    known = [i for i, position in enumerate(truth) if np.isfinite(position).all()]
+    if not known:
+        return {}
+    errors = np.array([off_truth(bearings[i], truth[i]) for i in known])
+    stated = np.array(
+        [
+            [
+                bearings[i].covariance_white_rad2[k] + bearings[i].covariance_systematic_rad2[k]
+                for k in (0, 2)
+            ]
+            for i in known
+        ]
+    )
+    return {
+        "rms_deg": [float(v) for v in np.degrees(np.sqrt((errors**2).mean(axis=0)))],
+        "stated_deg": [float(v) for v in np.degrees(np.sqrt(stated.mean(axis=0)))],
+    }
 
 
 def station_report(recording: Recording, station: str, window: tuple[int, int]) -> dict[str, Any]:
     """Frames, states and servo quality of one station, inside the window where that makes sense."""
     statuses = [s for s in recording.statuses[station] if window[0] <= s.utime <= window[1]]
+    bearings = bearings_inside(recording, station, window)
     first, last = (
         recording.station_counters(station, recording.statuses[station].index(s))
         for s in (statuses[0], statuses[-1])
@@ -118,7 +150,8 @@ def station_report(recording: Recording, station: str, window: tuple[int, int]) 
         "frames_lost": int(lost),
         "frames_lost_fraction": lost / max(1.0, captured + lost),
         "frames_late": int(grown.get("frames_late", 0.0)),
-        "bearings": bearings_inside(recording, station, window),
+        "bearings": len(bearings),
+        "bearing_error": bearing_accuracy(recording, bearings),
         "seconds": {name: round(value, 3) for name, value in sorted(seconds.items())},
         "tracking_fraction": seconds.get("tracking", 0.0) / total_s if total_s > 0 else 0.0,
         "central_third_fraction": in_central_third(recording, station, window),
