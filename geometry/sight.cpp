@@ -106,12 +106,13 @@ std::optional<LineOfSight> sight(const StationGeometry& station, const PixelSigh
   const Eigen::Matrix2d tangent_by_pixel =
       (project_jacobian(station.camera, *ray_cam) * camera.linear().transpose() * ray.tangent)
           .inverse();
-  line.covariance_white =
-      transformed(tangent_by_pixel, measurement.covariance_px2) +
-      transformed(tangent_by_angles(station.chain, ray), measurement.angles_covariance_rad2);
+  const Eigen::Matrix2d by_angles = tangent_by_angles(station.chain, ray);
+  line.covariance_white = transformed(tangent_by_pixel, measurement.covariance_px2) +
+                          transformed(by_angles, measurement.angles_covariance_rad2);
   line.aim_sd_rad = measurement.aim_sd_px * tangent_by_pixel.norm() / std::sqrt(2.0);
   line.covariance_systematic =
       transformed(tangent_by_pixel, measurement.covariance_systematic_px2) +
+      transformed(by_angles, measurement.angles_systematic_rad2) +
       line.aim_sd_rad * line.aim_sd_rad * Eigen::Matrix2d::Identity() +
       calibration_covariance(station, ray);
   return line;

@@ -37,6 +37,7 @@ struct PixelSight {
   double aim_sd_px = 0.0;
   PanTilt angles;
   Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)
+  Eigen::Matrix2d angles_systematic_rad2 = Eigen::Matrix2d::Zero();  // the same in every frame
 };
 
 // The line of sight of a pixel, with first-order covariances; nullopt when the pixel cannot be

@@ -57,6 +57,7 @@ std::optional<LineOfSight> sight(const StationCalibration& calibration,
   pixel.angles_covariance_rad2 =
       measurement.angles_covariance_rad2 +
       Eigen::Matrix2d::Identity() * (calibration.angle_sd_rad * calibration.angle_sd_rad);
+  pixel.angles_systematic_rad2 = measurement.angles_systematic_rad2;
   auto line = sight(geometry, pixel);
   if (!line) return std::nullopt;
   line->covariance_systematic += *systematic;

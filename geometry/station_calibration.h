@@ -25,6 +25,8 @@ struct CountedSight {
   // If `approach` is 0 (unknown), the backlash is part of the systematic covariance.
   UnitReading reading;
   Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)
+  // The same in every frame, without what the calibration has.
+  Eigen::Matrix2d angles_systematic_rad2 = Eigen::Matrix2d::Zero();
 };
 
 // J C J' on the tangent plane (cross-elevation, elevation) [rad^2]: the covariance of a pixel's
@@ -33,8 +35,8 @@ std::optional<Eigen::Matrix2d> systematic_covariance(const StationCalibration& c
                                                      const UnitReading& reading,
                                                      const Eigen::Vector2d& pixel);
 
-// Like sight() of geometry/sight.h. The systematic covariance is J C J' plus that of the
-// designation.
+// Like sight() of geometry/sight.h. The systematic covariance is J C J' plus those of
+// the designation and of angles_systematic_rad2.
 std::optional<LineOfSight> sight(const StationCalibration& calibration,
                                  const CountedSight& measurement);
 

@@ -108,7 +108,8 @@ void PointingModel::set_pose(const sensors::StationPose& pose) {
 }
 
 UnitAngles PointingModel::unit_angles(const mount::AngleAt& at, double time_s) const {
-  UnitAngles unit{at.angles, at.angles, at.rate, at.covariance, at.interpolated, {}, time_s};
+  UnitAngles unit{at.angles,       at.angles, at.rate, at.covariance, at.lasting_covariance,
+                  at.interpolated, {},        time_s};
   if (calibrated()) {
     unit.reading = unit_->reading(at.angles, at.rate, time_s);
     unit.angles = unit_->corrected(unit.reading);
@@ -144,8 +145,9 @@ std::optional<LineOfSight> PointingModel::sight(PixelSight pixel, const UnitAngl
         Eigen::Matrix2d::Identity() * (zoom->centre_sd_px * zoom->centre_sd_px);
     return ols::sight(geometry, pixel);
   }
-  return ols::sight(unit_->calibration(), {pixel.pixel, pixel.covariance_px2, pixel.aim_sd_px,
-                                           unit.reading, pixel.angles_covariance_rad2});
+  return ols::sight(unit_->calibration(),
+                    {pixel.pixel, pixel.covariance_px2, pixel.aim_sd_px, unit.reading,
+                     pixel.angles_covariance_rad2, pixel.angles_systematic_rad2});
 }
 
 std::optional<video::CameraView> PointingModel::camera_at(const UnitAngles& unit) const {

@@ -21,10 +21,11 @@ namespace ols::station {
 struct UnitAngles {
   PanTilt angles;  // for the chain; for a calibrated unit, corrected for its errors
   PanTilt reported;
-  PanTilt rate;                // [rad/s]
-  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt), white
-  bool interpolated = false;   // false if the instant is after the newest sample
-  UnitReading reading;         // set for a calibrated unit
+  PanTilt rate;                                                  // [rad/s]
+  Eigen::Matrix2d covariance;                                    // [rad^2] (pan, tilt), white
+  Eigen::Matrix2d lasting_covariance = Eigen::Matrix2d::Zero();  // [rad^2] the same in every frame
+  bool interpolated = false;  // false if the instant is after the newest sample
+  UnitReading reading;        // set for a calibrated unit
   double time_s = 0.0;
 };
 

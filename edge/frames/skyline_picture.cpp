@@ -37,6 +37,7 @@ bool state_sigmas(const PointingModel& pointing, const UnitAngles& unit,
   PixelSight pixel;
   pixel.pixel.y() = camera.cy_px;
   pixel.angles_covariance_rad2 = unit.covariance;
+  pixel.angles_systematic_rad2 = unit.lasting_covariance;
   bool any = false;
   for (const double edge_px : {0.0, camera.width_px - 1.0}) {
     const auto line = outermost(pointing, unit, pixel, edge_px, camera.cx_px);

@@ -14,7 +14,7 @@ bool finite(const AngleSample& s) {
   return std::isfinite(s.time_s) && std::isfinite(s.time_sd_s) &&
          std::isfinite(s.shared_time_sd_s) && std::isfinite(s.tilt_time_sd_s.value_or(0.0)) &&
          std::isfinite(s.tilt_delay_s) && finite(s.angles) && finite(s.doubt) &&
-         finite(s.acceleration) && finite(s.step_share);
+         finite(s.place_sd) && finite(s.acceleration) && finite(s.step_share);
 }
 
 double square(double x) { return x * x; }
@@ -29,6 +29,7 @@ AngleHistory::Knot AngleHistory::pan_knot(const AngleSample& s) {
           s.shared_time_sd_s,
           s.angles.pan_rad,
           s.doubt.pan_rad,
+          s.place_sd.pan_rad,
           s.acceleration.pan_rad,
           s.step_share.pan_rad,
           s.ordered_change ? std::optional(s.ordered_change->pan_rad) : std::nullopt};
@@ -40,6 +41,7 @@ AngleHistory::Knot AngleHistory::tilt_knot(const AngleSample& s) {
           s.shared_time_sd_s,
           s.angles.tilt_rad,
           s.doubt.tilt_rad,
+          s.place_sd.tilt_rad,
           s.acceleration.tilt_rad,
           s.step_share.tilt_rad,
           s.ordered_change ? std::optional(s.ordered_change->tilt_rad) : std::nullopt};
@@ -70,6 +72,7 @@ std::optional<AngleAt> AngleHistory::at(double time_s) const {
   result.rate = {pan->rate_rad_s, tilt->rate_rad_s};
   // The axes are read one after the other: their errors are independent.
   result.covariance = Eigen::Vector2d(pan->variance_rad2, tilt->variance_rad2).asDiagonal();
+  result.lasting_covariance = Eigen::Vector2d(pan->lasting_rad2, tilt->lasting_rad2).asDiagonal();
   result.interpolated = pan->interpolated && tilt->interpolated;
   return result;
 }
@@ -105,7 +108,7 @@ std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf 
   return AxisAt{a.angle_rad + weight * gap_s * rate, rate,
                 square(1.0 - weight) * knot_variance(a, rate) +
                     square(weight) * knot_variance(b, rate) + shared + bend + begun,
-                interpolated};
+                std::max(square(a.place_sd_rad), square(b.place_sd_rad)), interpolated};
 }
 
 // The unit may have begun to accelerate after the newest sample: with half of the maximum as
@@ -119,7 +122,7 @@ double AngleHistory::begun_variance(const Knot& newest, double beyond_s) const {
 
 double AngleHistory::knot_variance(const Knot& knot, double rate_rad_s) const {
   return square(rate_rad_s * knot.time_sd_s) + knot.step_share * square(config_.step_rad) / 12.0 +
-         square(knot.doubt_rad);
+         square(knot.doubt_rad) + square(knot.place_sd_rad);
 }
 
 double AngleHistory::bend2(std::size_t b, KnotOf knot) const {

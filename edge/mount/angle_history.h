@@ -19,6 +19,9 @@ struct AngleSample {
   std::optional<double> tilt_time_sd_s = {};
   double tilt_delay_s = 0.0;
   PanTilt doubt = {};  // [rad] 1-sigma of other errors of each angle
+  // [rad] 1-sigma of an error that depends on the place, and is the same as long as the unit stands
+  // there: backlash, repeatability.
+  PanTilt place_sd = {};
   // Share of the variance of one encoder step that remains after averaging several readings.
   PanTilt step_share = {1.0, 1.0};
   // [rad/s^2] approximate acceleration that was commanded since the previous sample.
@@ -32,8 +35,12 @@ struct AngleSample {
 struct AngleAt {
   PanTilt angles;
   PanTilt rate;  // [rad/s]
-  // [rad^2] (pan, tilt): from encoder step, time jitter and acceleration.
+  // [rad^2] (pan, tilt): from encoder step, time jitter, acceleration; and from the place, which
+  // changes as the unit turns.
   Eigen::Matrix2d covariance;
+  // [rad^2] (pan, tilt): from the place, as far as it is not seen to change. It does not average
+  // out.
+  Eigen::Matrix2d lasting_covariance = Eigen::Matrix2d::Zero();
   bool interpolated = false;  // false if the instant is after the newest sample
 };
 
@@ -65,12 +72,12 @@ class AngleHistory {
  private:
   // One axis at one sample.
   struct Knot {
-    double time_s, time_sd_s, shared_time_sd_s, angle_rad, doubt_rad, acceleration_rad_s2,
-        step_share;
+    double time_s, time_sd_s, shared_time_sd_s, angle_rad, doubt_rad, place_sd_rad,
+        acceleration_rad_s2, step_share;
     std::optional<double> ordered_change_rad_s;
   };
   struct AxisAt {
-    double angle_rad, rate_rad_s, variance_rad2;
+    double angle_rad, rate_rad_s, variance_rad2, lasting_rad2;
     bool interpolated;
   };
   static Knot pan_knot(const AngleSample& sample);

@@ -15,8 +15,8 @@ CarriedAxis::Seen seen_of(const SeenPath::At& at, double PanTilt::*axis) {
 CarriedAxis::Report CarriedAngles::report(const AngleSample& sample, double PanTilt::*axis,
                                           double time_sd_s) const {
   const double step_rad2 = sample.step_share.*axis * config_.step_rad * config_.step_rad / 12.0;
-  const double doubt_rad = sample.doubt.*axis;
-  return {sample.angles.*axis, step_rad2 + doubt_rad * doubt_rad, time_sd_s,
+  const double other_rad = std::hypot(sample.doubt.*axis, sample.place_sd.*axis);
+  return {sample.angles.*axis, step_rad2 + other_rad * other_rad, time_sd_s,
           std::hypot(sample.shared_time_sd_s, stamp_sd_s_)};
 }
 
@@ -70,6 +70,7 @@ std::optional<AngleAt> CarriedAngles::at(double time_s) const {
   result.angles = {pan->angle_rad, tilt->angle_rad};
   result.rate = {pan->rate_rad_s, tilt->rate_rad_s};
   result.covariance = Eigen::Vector2d(pan->variance_rad2, tilt->variance_rad2).asDiagonal();
+  result.lasting_covariance = Eigen::Vector2d(pan->lasting_rad2, tilt->lasting_rad2).asDiagonal();
   return result;
 }
 

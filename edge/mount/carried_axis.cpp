@@ -104,9 +104,12 @@ std::optional<CarriedAxis::At> CarriedAxis::at(const Seen& seen) const {
   const double turned_rad = seen.turned_rad - newest_->turned_rad;
   const Vector H(1.0, 0.0, turned_rad, seen.time_s - newest_->time_s);
   const double constant_rad2 = std::clamp(place_rad2_ - scatter_rad2_, 0.0, place_rad2_);
+  // Of the state's variance, as much may come from the part that lasts; it counts once.
+  const double counted_rad2 = std::min(constant_rad2, (*covariance_)(kAngle, kAngle));
   return At{H.dot(state_) + turned_rad, (1.0 + state_(kScale)) * seen.rate_rad_s + state_(kScene),
-            square(kUnmodelled_rad) + H.dot(*covariance_ * H) +
-                std::abs(seen.walk_rad2 - newest_->walk_rad2) + seen.bend_rad2 + constant_rad2};
+            std::max(0.0, H.dot(*covariance_ * H) - counted_rad2) +
+                std::abs(seen.walk_rad2 - newest_->walk_rad2) + seen.bend_rad2,
+            square(kUnmodelled_rad) + constant_rad2};
 }
 
 }  // namespace ols::mount

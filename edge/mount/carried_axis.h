@@ -8,7 +8,7 @@
 //
 // A report's error depends on the reported place. Another report of the same place therefore does
 // not improve the angle. Reports of other places improve it only as far as they are seen to
-// scatter. The rest of the stated error (backlash, for example) stays in the variance.
+// scatter. The rest of the stated error (backlash, for example) lasts.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +33,9 @@ class CarriedAxis {
     double bend_rad2 = 0.0;  // variance of turned_rad at this instant alone
   };
   struct At {
-    double angle_rad, rate_rad_s, variance_rad2;
+    double angle_rad, rate_rad_s;
+    double variance_rad2;  // without the part that lasts
+    double lasting_rad2;   // does not average out
   };
 
   // The report of an instant, in order of time. A report that contradicts the filter restarts it:

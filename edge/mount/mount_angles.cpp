@@ -3,12 +3,14 @@
 namespace ols::mount {
 namespace {
 
+double all_variance(const AngleAt& at) { return (at.covariance + at.lasting_covariance).trace(); }
+
 // Whether they differ by more than their errors: then the pictures show something that moves.
 bool contradict(const AngleAt& a, const AngleAt& b) {
   constexpr double kMost = 9.0;  // in variances
   const Eigen::Array2d off(a.angles.pan_rad - b.angles.pan_rad,
                            a.angles.tilt_rad - b.angles.tilt_rad);
-  const Eigen::Array2d variances = (a.covariance + b.covariance).diagonal();
+  const Eigen::Array2d variances = (a.covariance + a.lasting_covariance + b.covariance).diagonal();
   return (off.square() > kMost * variances).any();
 }
 
@@ -31,7 +33,7 @@ std::optional<AngleAt> MountAngles::at(double time_s, double stamp_sd_s) const {
   if (!reported) return carried;
   const Eigen::Vector2d rate(reported->rate.pan_rad, reported->rate.tilt_rad);
   reported->covariance += rate * rate.transpose() * (stamp_sd_s * stamp_sd_s);
-  const bool surer = carried && carried->covariance.trace() < reported->covariance.trace() &&
+  const bool surer = carried && all_variance(*carried) < all_variance(*reported) &&
                      !contradict(*carried, *reported);
   if (!surer) return reported;
   carried->interpolated = reported->interpolated;

@@ -70,6 +70,7 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
   pixel.covariance_px2 = measured.covariance_px2;
   pixel.aim_sd_px = measured.designation_sd_px;
   pixel.angles_covariance_rad2 = angles->covariance;
+  pixel.angles_systematic_rad2 = angles->lasting_covariance;
   const auto line = pointing.sight(pixel, *angles);
   if (!line) {
     counters_["pixels_outside_lens_model"] += 1;

@@ -219,7 +219,9 @@ void bind_sight_types(py::module_& m) {
                      "(2, 2) stays.")
       .def_readwrite("angles", &PixelSight::angles)
       .def_readwrite("angles_covariance_rad2", &PixelSight::angles_covariance_rad2,
-                     "(2, 2) white, (pan, tilt).");
+                     "(2, 2) white, (pan, tilt).")
+      .def_readwrite("angles_systematic_rad2", &PixelSight::angles_systematic_rad2,
+                     "(2, 2) stays, (pan, tilt).");
 
   data_class<View>(m, "View", "A point seen by a station.")
       .def_readwrite("pixel", &View::pixel, "(2,)")

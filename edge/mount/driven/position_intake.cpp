@@ -147,7 +147,7 @@ void PositionIntake::add(const PanTilt& angles, double sent_s, double answered_s
   samples_.add({.time_s = time_s,
                 .time_sd_s = std::sqrt(share) * spread_s,
                 .angles = angles,
-                .doubt = {sd_rad(), sd_rad()},
+                .place_sd = {sd_rad(), sd_rad()},
                 .ordered_change = ordered_change(added_s_.value_or(time_s) - kResponds_s),
                 .shared_time_sd_s = config_.delay_sd_s});
   added_s_ = time_s;

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "geometry/angles.h"
 #include "tests/unit/geometry/near.h"
@@ -148,6 +149,10 @@ TEST(Sight, PanJitterIsSmallerAcrossWhenLookingUp) {
   EXPECT_TRUE(
       near(line->covariance_white / 1e-6, Eigen::Matrix2d(Vector2d(0.25, 4.0).asDiagonal()), 1e-6));
   EXPECT_TRUE(near(line->covariance_systematic, Eigen::Matrix2d::Zero(), 0.0));
+  std::swap(measurement.angles_covariance_rad2, measurement.angles_systematic_rad2);
+  const auto lasting = sight(plain_station(), measurement);
+  EXPECT_TRUE(near(lasting->covariance_systematic, line->covariance_white, 0.0));
+  EXPECT_TRUE(near(lasting->covariance_white, Eigen::Matrix2d::Zero(), 0.0));
 }
 
 TEST(Sight, CalibrationErrorsByHand) {

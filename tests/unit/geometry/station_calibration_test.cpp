@@ -112,6 +112,10 @@ TEST(StationCalibration, SightKeepsTheKindsOfErrorsApart) {
   EXPECT_NEAR(2.0 * std::pow(more->aim_sd_rad, 2),
               (more->covariance_systematic - plain->covariance_systematic).trace(), 1e-12);
   EXPECT_GT((more->covariance_white - plain->covariance_white).trace(), 0.9e-8);
+  measured.angles_systematic_rad2 = 1e-8 * Eigen::Matrix2d::Identity();
+  const auto lasting = sight(calibration, measured);
+  EXPECT_GT((lasting->covariance_systematic - more->covariance_systematic).trace(), 0.9e-8);
+  EXPECT_TRUE(near(lasting->covariance_white, more->covariance_white, 0.0));
 }
 
 TEST(StationCalibration, FromWhichSideIsPartOfTheDoubtWhereItIsNotKnown) {

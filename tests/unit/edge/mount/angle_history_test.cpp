@@ -124,6 +124,16 @@ TEST(AngleHistory, BeyondTheNewestSampleTheOrderedRateSaysHowMuchMayHaveBegun) {
   }
 }
 
+// It may be that of the place, at all instants: between two samples it does not average out.
+TEST(AngleHistory, TheErrorOfThePlaceLasts) {
+  AngleHistory history({});
+  for (int i = 0; i < 3; ++i) history.add({.time_s = 0.1 * i, .place_sd = {2e-3, 3e-3}});
+  const AngleAt at = history.at(0.15).value();
+  EXPECT_NEAR(at.lasting_covariance(0, 0), 4e-6, 1e-12);
+  EXPECT_NEAR(at.lasting_covariance(1, 1), 9e-6, 1e-12);
+  EXPECT_GT(at.covariance(0, 0), 0.49 * 4e-6) << "or it changes from sample to sample";
+}
+
 // Without an order to change the rate.
 TEST(AngleHistory, AnAccelerationThatTheSamplesShowCountsBeyondTheNewest) {
   AngleHistory history({.max_extrapolation_s = 0.3, .acceleration_sd_rad_s2 = 1e-6});

@@ -47,6 +47,21 @@ TEST_F(BearingQueueTest, WaitsForTheAnglesOnBothSidesOfTheExposure) {
   EXPECT_NEAR(queue.frame_latency_s(), 0.002, 1e-9);
 }
 
+TEST_F(BearingQueueTest, AnErrorOfTheMountsPlaceIsSystematic) {
+  constexpr double kPlace_rad = 2e-3;
+  for (const double time_s : {10.0, 10.02}) {
+    mount::AngleSample with_place = sample(time_s);
+    with_place.place_sd = {kPlace_rad, kPlace_rad};
+    pointing.add(with_place);
+  }
+  queue.add(pixel(10.01));
+  const auto made = queue.take(pointing, 10.03);
+  ASSERT_EQ(made.size(), 1U);
+  const Eigen::Matrix2d systematic = made.front().bearing.sight.covariance_systematic;
+  EXPECT_NEAR(systematic(0, 0), kPlace_rad * kPlace_rad, 1e-8);
+  EXPECT_NEAR(systematic(1, 1), kPlace_rad * kPlace_rad, 1e-8);
+}
+
 TEST_F(BearingQueueTest, OneOfADetectedObjectStatesItsRateAndSize) {
   for (const double time_s : {10.0, 10.02, 10.04}) pointing.add(sample(time_s));
   queue.add(pixel(10.05));
