@@ -18,52 +18,23 @@
 #include "dev/bench/program.h"
 #include "edge/frames/pointing_model.h"
 #include "edge/mount/onvif/onvif_kind.h"
-#include "edge/mount/onvif/soap_answer.h"
-#include "edge/mount/onvif/soap_request.h"
 #include "edge/tracker/ego_motion.h"
 #include "geometry/angles.h"
-#include "sim/onvif/device.h"
-#include "sim/onvif/ptz_scale.h"
+#include "sim/onvif/onvif_in_hand.h"
 
 namespace {
 
 using namespace ols;
 using bench::Scene;
-using mount::Act;
 
-constexpr double kTurn_s = 0.005, kTimeout_s = 2.0, kReconnect_s = 0.2;
-constexpr std::int64_t kStart_us = 1'800'000'000'000'000;
-
-struct Wire {
-  double least_s = 0.005, most_s = 0.03;  // of each way
-  bool cut = false;
-};
-
-// The configuration that a data sheet gives.
-mount::DriveConfig drive_config(const sim::PtzUnitConfig& unit) {
-  const auto scale = [&unit](int axis) {
-    const double zero = sim::angle_rad(axis, 0.0, unit);
-    return mount::AxisScale{zero, sim::angle_rad(axis, 1.0, unit) - zero,
-                            sim::full_speed_rad_s(axis, unit)};
-  };
-  mount::DriveConfig config;
-  config.pan = scale(0);
-  config.tilt = scale(1);
-  return config;
-}
+constexpr double kTurn_s = 0.005;
 
 class Loop {
  public:
   Loop(const sim::OnvifConfig& device, const mount::DriveConfig& drive, std::uint64_t seed)
-      : device_config_(device),
-        drive_config_(drive),
-        device_(device, seed, 0.0),
-        drive_(drive),
-        history_(history_config(drive)),
+      : history_(history_config(drive)),
         pointing_(station_config(drive)),
-        random_(seed) {
-    connect();
-  }
+        in_hand_(device, drive, seed, kBegin_s) {}
 
   using GoalAt = std::function<std::optional<mount::Goal>(double)>;
   // `each`: after each turn of 5 ms.
@@ -74,22 +45,22 @@ class Loop {
     }
   }
   double now_s() const { return now_s_; }
-  PanTilt truth(double time_s) const { return device_.angles_at(time_s); }
+  PanTilt truth(double time_s) const { return in_hand_.angles_at(time_s); }
   bool turns() const {
     const PanTilt then = truth(now_s_ - kTurn_s), now = truth(now_s_);
     return std::abs(now.pan_rad - then.pan_rad) + std::abs(now.tilt_rad - then.tilt_rad) > 0.0;
   }
   const mount::AngleHistory& history() const { return history_; }  // of the reports alone
   station::PointingModel& pointing() { return pointing_; }
-  mount::Drive& drive() { return drive_; }
-  void set_faults(const sim::PtzFaults& faults) {
-    device_.set_faults(faults, std::max(now_s_, device_s_));
-  }
+  mount::Drive& drive() { return in_hand_.drive(); }
+  sim::OnvifInHand::Wire& wire() { return in_hand_.wire; }
+  void set_faults(const sim::PtzFaults& faults) { in_hand_.set_faults(faults, now_s_); }
 
-  Wire wire;
   bool station_lives = true;
 
  private:
+  static constexpr double kBegin_s = 1.0;
+
   static mount::AngleHistory::Config history_config(const mount::DriveConfig& drive) {
     onvif::OnvifKind kind;
     kind.onvif.drive = drive;
@@ -101,80 +72,19 @@ class Loop {
     config.angles = history_config(drive);
     return config;
   }
-  double way_s() { return std::uniform_real_distribution(wire.least_s, wire.most_s)(random_); }
-  std::string ask(const onvif::Request& request) {
-    const std::int64_t utime_us = kStart_us + std::llround(1e6 * device_s_);
-    onvif::Token token{{device_config_.user, device_config_.password},
-                       fmt::format("{:016}", ++nonce_),
-                       utime_us / 1'000'000};
-    const auto answer =
-        device_.answer({"POST", "/", "", onvif::envelope(request, token)}, device_s_, utime_us);
-    return answer ? answer->body : "";
-  }
-  void connect() {
-    device_s_ = std::max(device_s_, now_s_);
-    drive_.connected(onvif::options(ask(onvif::get_options("motion"))));
-  }
-  onvif::Request request_of(const mount::Order& order) const {
-    if (order.act == Act::kStop) return onvif::stop("main");
-    if (order.act == Act::kVelocity)
-      return onvif::continuous_move("main", order.vector, drive_config_.lease_s);
-    if (order.act == Act::kAbsolute) return onvif::absolute_move("main", order.vector);
-    return onvif::get_status("main");
-  }
   void turn(const GoalAt& goal_at) {
-    drive_.set_goal(goal_at ? goal_at(now_s_) : std::nullopt);
-    if (now_s_ < again_s_) return;
-    if (pending_) finish();
-    if (lost_) {
-      if (wire.cut) return;
-      lost_ = false;
-      connect();
-    }
-    const mount::Order order = drive_.next(now_s_);
-    if (order.act != Act::kWait) send(order);
-  }
-  void send(const mount::Order& order) {
-    pending_ = order;
-    sent_s_ = now_s_;
-    answer_.clear();
-    again_s_ = now_s_ + kTimeout_s;
-    if (wire.cut) return;
-    device_s_ = now_s_ + way_s();
-    answer_ = ask(request_of(order));
-    again_s_ = device_s_ + way_s();
-  }
-  void finish() {
-    const mount::Order order = *pending_;
-    pending_.reset();
-    if (answer_.empty()) {
-      drive_.lost();
-      lost_ = true;
-      again_s_ = now_s_ + kReconnect_s;
-    } else if (order.act == Act::kStatus) {
-      drive_.take(onvif::status(answer_), sent_s_, again_s_);
-      for (const auto& sample : drive_.take_samples()) {
-        history_.add(sample);
-        pointing_.add(sample);
-      }
-    } else {
-      drive_.done(order, now_s_);
+    drive().set_goal(goal_at ? goal_at(now_s_) : std::nullopt);
+    in_hand_.advance(now_s_);
+    for (const auto& sample : drive().take_samples()) {
+      history_.add(sample);
+      pointing_.add(sample);
     }
   }
 
-  const sim::OnvifConfig device_config_;
-  const mount::DriveConfig drive_config_;
-  sim::OnvifDevice device_;
-  mount::Drive drive_;
   mount::AngleHistory history_;
   station::PointingModel pointing_;
-  std::mt19937_64 random_;
-  double now_s_ = 1.0, device_s_ = 1.0;  // the latter: of the last request's arrival
-  double sent_s_ = 0.0, again_s_ = 0.0;
-  std::optional<mount::Order> pending_;
-  std::string answer_;
-  bool lost_ = false;
-  int nonce_ = 0;
+  sim::OnvifInHand in_hand_;
+  double now_s_ = kBegin_s;
 };
 
 // A target that passes at a constant speed.
@@ -270,7 +180,7 @@ struct Following {
 // station lets them. The configured delay is wrong by its stated error.
 Following follow(const Case& c, double rate_deg_s, std::uint64_t seed) {
   const sim::OnvifConfig device;
-  mount::DriveConfig config = drive_config(device.unit);
+  mount::DriveConfig config = sim::drive_config(device.unit);
   std::mt19937_64 random(seed);
   config.positions.delay_s = c.delay_s + std::normal_distribution(0.0, c.delay_sd_s)(random);
   config.positions.delay_sd_s = c.delay_sd_s;
@@ -293,10 +203,11 @@ Following follow(const Case& c, double rate_deg_s, std::uint64_t seed) {
     sum.lag2 += std::pow(goal_at(frame_s)->angles.pan_rad - truth_rad, 2);
     ++sum.frames;
     if (const auto at = loop.history().at(frame_s)) {
-      sum.reported.add(at->angles.pan_rad, at->covariance(0, 0), truth_rad);
+      sum.reported.add(at->angles.pan_rad, (at->covariance + at->lasting_covariance)(0, 0),
+                       truth_rad);
     }
     if (const auto at = loop.pointing().angles_at(frame_s)) {
-      sum.seen.add(at->angles.pan_rad, at->covariance(0, 0), truth_rad);
+      sum.seen.add(at->angles.pan_rad, (at->covariance + at->lasting_covariance)(0, 0), truth_rad);
     }
     frame_s += kFrame_s;
   });
@@ -308,7 +219,7 @@ std::optional<double> rest_after(const sim::PtzFaults& faults, std::uint64_t see
                                  const std::function<void(Loop&)>& event,
                                  const std::function<void(Loop&)>& later = {}) {
   const sim::OnvifConfig device;
-  Loop loop(device, drive_config(device.unit), seed);
+  Loop loop(device, sim::drive_config(device.unit), seed);
   loop.set_faults(faults);
   const auto goal_at = passing(radians(2.0), loop.now_s());
   loop.run(8.0, goal_at);
@@ -372,8 +283,8 @@ void say_following(double rate_deg_s, int seeds) {
 
 void say_rests(int seeds) {
   const sim::PtzFaults good, deaf{.ignores_timeout = true};
-  const auto cut = [](Loop& loop) { loop.wire.cut = true; };
-  const auto mend = [](Loop& loop) { loop.wire.cut = false; };
+  const auto cut = [](Loop& loop) { loop.wire().cut = true; };
+  const auto mend = [](Loop& loop) { loop.wire().cut = false; };
   const auto kill = [](Loop& loop) { loop.station_lives = false; };
   const auto emergency = [](Loop& loop) { loop.drive().emergency_halt(); };
   fmt::print("\nAt rest after it, worst [s]:\n\n| event | rest [s] | never |\n|---|---|---|\n");
@@ -382,7 +293,7 @@ void say_rests(int seeds) {
   say_rest("link cut", good, seeds, cut);
   say_rest(
       "link cut for 5 s and back, emergency; ignores time-outs", deaf, seeds,
-      [](Loop& loop) { loop.wire.cut = true, loop.drive().emergency_halt(); }, mend);
+      [](Loop& loop) { loop.wire().cut = true, loop.drive().emergency_halt(); }, mend);
   say_rest("station killed", good, seeds, kill);
   say_rest("station killed; ignores time-outs", deaf, seeds, kill);
 }

@@ -2,7 +2,9 @@
 
 #include "edge/mount/fixed/fixed_mount.h"
 #include "edge/ptu/driver.h"
+#include "sim/onvif/onvif_in_hand.h"
 #include "sim/ptu/unit.h"
+#include "sim/scenario/onvif_camera.h"
 
 namespace ols::sim {
 namespace {
@@ -50,6 +52,30 @@ class DrivenUnit : public LockstepMount {
   ptu::PtuDriver driver_;
 };
 
+class OnvifInLockstep : public LockstepMount {
+ public:
+  OnvifInLockstep(const OnvifConfig& device, std::uint64_t seed, double now_s)
+      : in_hand_(device, drive_config(device.unit), seed, now_s) {}
+
+  void advance(double now_s) override { in_hand_.advance(now_s); }
+  std::vector<mount::AngleSample> take_samples() override {
+    return in_hand_.drive().take_samples();
+  }
+  void set_goal(const std::optional<mount::Goal>& goal) override {
+    in_hand_.drive().set_goal(goal);
+  }
+  mount::Reference reference() const override { return mount::Reference::kTrusted; }
+  std::optional<mount::Limits> limits() const override {
+    if (!in_hand_.drive().has_position()) return std::nullopt;
+    return in_hand_.drive().limits();
+  }
+  PanTilt angles_at(double time_s) const override { return in_hand_.angles_at(time_s); }
+  std::map<std::string, double> counters() const override { return {}; }
+
+ private:
+  OnvifInHand in_hand_;
+};
+
 class FixedMountInLockstep : public LockstepMount {
  public:
   FixedMountInLockstep(const PanTilt& angles, double now_s) : angles_(angles), now_s_(now_s) {}
@@ -75,8 +101,10 @@ class FixedMountInLockstep : public LockstepMount {
 
 std::unique_ptr<LockstepMount> make_lockstep_mount(const World& world, std::size_t station,
                                                    std::uint64_t seed, double now_s) {
-  const auto& fixed = world.scenario().stations[station].fixed;
-  if (fixed) return std::make_unique<FixedMountInLockstep>(*fixed, now_s);
+  const StationScenario& of = world.scenario().stations[station];
+  if (of.fixed) return std::make_unique<FixedMountInLockstep>(*of.fixed, now_s);
+  if (of.mount == MountModel::kOnvif)
+    return std::make_unique<OnvifInLockstep>(onvif_config(world.scenario(), of), seed, now_s);
   return std::make_unique<DrivenUnit>(world, seed, now_s);
 }
 

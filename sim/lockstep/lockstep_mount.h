@@ -1,5 +1,6 @@
-// The mount of a simulated station's camera, in simulated time: a simulated unit with the product's
-// driver, or a fixed mount. Times are the station's monotonic clock [s].
+// The mount of a simulated station's camera, in simulated time: a simulated unit or ONVIF camera
+// with the product's driver, or a fixed mount. A unit stands for a telescope mount. Times are the
+// station's monotonic clock [s].
 #pragma once
 
 #include <map>

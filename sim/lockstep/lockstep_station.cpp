@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "edge/mount/fixed/fixed_kind.h"
+#include "edge/mount/onvif/onvif_kind.h"
 #include "edge/tracker/tracker.h"
+#include "sim/onvif/onvif_in_hand.h"
+#include "sim/scenario/onvif_camera.h"
 
 namespace ols::sim {
 namespace {
@@ -33,6 +36,10 @@ station::StationConfig station_config(const World& world, std::size_t index, boo
     kind.fixed.angles = *fixed;
     config.angles = kind.traits().angles;
     config.moves = false;
+  } else if (scenario.mount == MountModel::kOnvif) {
+    onvif::OnvifKind kind;
+    kind.onvif.drive = drive_config(onvif_config(world.scenario(), scenario).unit);
+    config.angles = kind.traits().angles;
   } else {
     config.angles.step_rad = radians(world.ptu_unit_config().resolution_arcsec / 3600.0);
   }

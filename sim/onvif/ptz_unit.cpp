@@ -30,7 +30,7 @@ PtuAxis::Profile PtzUnit::profile(double speed_rad_s) const {
 void PtzUnit::set_faults(const PtzFaults& faults, double time_s) {
   const PtzFaults before = std::exchange(faults_, faults);
   if (!faults.frozen) frozen_.reset();
-  if (faults.frozen && !before.frozen) frozen_ = angles_at(time_s);
+  if (faults.frozen && !before.frozen) frozen_ = counted_at(time_s);
   if (!faults.reboots || before.reboots) return;
   booted_s_ = time_s + config_.boot_s;
   for (PtuAxis& axis : axes_) axis.move(0.0, profile(config_.max_speed_rad_s), time_s);
@@ -49,7 +49,8 @@ void PtzUnit::drive(Axis axis, double speed_rad_s, double lasts_s, double time_s
 void PtzUnit::go_to(Axis axis, double target_rad, double speed_rad_s, double time_s) {
   forget(time_s);
   if (config_.repeatability_rad > 0.0) {
-    target_rad += std::normal_distribution(0.0, config_.repeatability_rad)(random_);
+    missed_rad_[axis] = std::normal_distribution(0.0, config_.repeatability_rad)(random_);
+    target_rad += missed_rad_[axis];
   }
   axes_[axis].move(target_rad / kStep_rad, profile(speed_rad_s), time_s + config_.command_delay_s);
 }
@@ -69,9 +70,15 @@ bool PtzUnit::moves(double time_s) const {
 
 std::optional<PanTilt> PtzUnit::reported(double time_s) const {
   if (faults_.no_position) return std::nullopt;
-  const PanTilt now = frozen_ ? *frozen_ : angles_at(time_s - faults_.late_s);
+  const PanTilt now = frozen_ ? *frozen_ : counted_at(time_s - faults_.late_s);
   const double step_rad = radians(faults_.step_deg);
   return PanTilt{stepped(now.pan_rad, step_rad), stepped(now.tilt_rad, step_rad)};
+}
+
+// The angles as the unit counts them.
+PanTilt PtzUnit::counted_at(double time_s) const {
+  const PanTilt at = angles_at(time_s);
+  return {at.pan_rad - missed_rad_[kPan], at.tilt_rad - missed_rad_[kTilt]};
 }
 
 PanTilt PtzUnit::angles_at(double time_s) const {

@@ -18,9 +18,10 @@ struct PtzUnitConfig {
   PanTilt least{radians(-170.0), radians(-30.0)}, greatest{radians(170.0), radians(90.0)};
   double max_speed_rad_s = radians(60.0);  // of each axis
   double acceleration_rad_s2 = radians(120.0);
-  double command_delay_s = 0.08;   // from a command's arrival to the motion
-  double repeatability_rad = 0.0;  // 1-sigma of where a move to a position ends
-  double boot_s = 20.0;            // without answers
+  double command_delay_s = 0.08;  // from a command's arrival to the motion
+  // 1-sigma by which a move to a position misses it. The reported positions do not show this error.
+  double repeatability_rad = 0.0;
+  double boot_s = 20.0;  // without answers
 };
 
 class PtzUnit {
@@ -50,12 +51,14 @@ class PtzUnit {
 
  private:
   PtuAxis::Profile profile(double speed_rad_s) const;
+  PanTilt counted_at(double time_s) const;
   void brake(Axis axis, double time_s);
   void forget(double time_s);
 
   PtzUnitConfig config_;
   PtzFaults faults_;
   std::array<PtuAxis, 2> axes_;
+  std::array<double, 2> missed_rad_{};  // by the last move to a position
   std::mt19937_64 random_;
   std::optional<PanTilt> frozen_;
   double booted_s_ = 0.0;

@@ -122,7 +122,7 @@ Section onvif_section(OnvifScenario& o) {
            config::number("command_delay_ms", o.command_delay_s, {0, 2000}, config::kMilliseconds,
                           "From the arrival of a command to the motion."),
            angle("repeatability_deg", o.repeatability_rad, {0, 5},
-                 "1-sigma of where a move to a position ends."),
+                 "1-sigma by which a move misses a position; it is not reported."),
            config::number("boot_s", o.boot_s, {0, 600}, "s", "Duration of a reboot.")}};
 }
 

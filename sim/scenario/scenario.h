@@ -78,9 +78,8 @@ struct Errors {
   } frames;
 };
 
-// What turns a station's camera: a pan-tilt unit; in the live simulation also an ONVIF PTZ camera
-// or a telescope mount behind an INDI server, aligned with the pole by the station's heading and
-// tilt.
+// What turns a station's camera: a pan-tilt unit, an ONVIF PTZ camera, or (in the live simulation)
+// a telescope mount behind an INDI server, aligned with the pole by the station's heading and tilt.
 enum class MountModel { kPtu, kOnvif, kIndi };
 
 struct StationScenario {
@@ -140,7 +139,7 @@ struct OnvifScenario {
   int port = 8080;
   double max_speed_rad_s = radians(60.0), acceleration_rad_s2 = radians(120.0);  // of each axis
   double command_delay_s = 0.08;             // from a command's arrival to the motion
-  double repeatability_rad = radians(0.05);  // 1-sigma of where a move to a position ends
+  double repeatability_rad = radians(0.05);  // 1-sigma by which a move misses a position, unseen
   double boot_s = 20.0;
 };
 

@@ -92,6 +92,8 @@ void write_onvif(std::ostream& out, const OnvifConfig& c, const std::string& pas
       << "\ntilt_gain_deg = " << degrees(angle_rad(1, 1.0, unit) - angle_rad(1, 0.0, unit))
       << "\ntilt_zero_deg = " << degrees(angle_rad(1, 0.0, unit))
       << "\ntilt_speed_deg_s = " << degrees(full_speed_rad_s(1, unit)) << "\n";
+  if (unit.repeatability_rad > 0.0)
+    out << "position_sd_deg = " << degrees(unit.repeatability_rad) << "\n";
 }
 
 void write_devices(std::ostream& out, const Scenario& s, const StationScenario& station,

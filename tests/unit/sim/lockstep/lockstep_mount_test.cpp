@@ -33,5 +33,25 @@ TEST(LockstepMount, AnglesAreThoseOfTheirTimes) {
   EXPECT_NEAR(sum_s / count, 0.0, 1.5e-4);
 }
 
+// The first station of mixed.toml is an ONVIF camera: it goes where it is ordered, and says where
+// it is, but for its repeatability of 0.05 deg.
+TEST(LockstepMount, AnOnvifCameraIsDrivenByItsMessages) {
+  const World world(load_scenario(std::string(OLS_SCENARIOS) + "/mixed.toml"), 1);
+  const auto mount = make_lockstep_mount(world, 0, 1, 0.0);
+  const PanTilt there{radians(20.0), radians(10.0)};
+  mount::AngleSample newest;
+  for (double now_s = 0.0; now_s < 10.0; now_s += 0.001) {
+    mount->advance(now_s);
+    mount->set_goal(mount::Goal{.time_s = now_s, .angles = there, .valid_until_s = now_s + 1.0});
+    for (const auto& sample : mount->take_samples()) newest = sample;
+  }
+  EXPECT_TRUE(mount->limits());
+  EXPECT_NEAR(newest.place_sd.pan_rad, radians(0.05), 1e-9) << "as configured";
+  const PanTilt true_angles = mount->angles_at(newest.time_s);
+  EXPECT_NEAR(true_angles.pan_rad, there.pan_rad, radians(0.2));
+  EXPECT_NEAR(newest.angles.pan_rad, true_angles.pan_rad, radians(0.2));
+  EXPECT_NE(newest.angles.pan_rad, true_angles.pan_rad);
+}
+
 }  // namespace
 }  // namespace ols::sim

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <openssl/evp.h>
 
+#include <cmath>
 #include <functional>
 
 namespace ols::sim {
@@ -228,6 +229,20 @@ TEST(OnvifDevice, HasTheFaultsOfRealCameras) {
   EXPECT_NEAR(fresh->pan_deg(), 0.0, 1e-9) << "home";
   fresh->now_s += 1.1;
   EXPECT_NEAR(fresh->reported_pan_deg(), 0.0, 1e-9);
+}
+
+// How a move misses its place, a client sees only in the picture. It stays until the next move to a
+// place.
+TEST(PtzUnit, ReportsNotByHowMuchItMissed) {
+  PtzUnit unit({.repeatability_rad = radians(0.2)}, 3, 0.0);
+  unit.go_to(PtzUnit::kPan, radians(10.0), radians(60.0), 0.0);
+  EXPECT_NEAR(unit.reported(2.0)->pan_rad, radians(10.0), 1e-9);
+  const double missed_rad = unit.angles_at(2.0).pan_rad - radians(10.0);
+  EXPECT_GT(std::abs(missed_rad), radians(0.01));
+  unit.drive(PtzUnit::kPan, radians(5.0), 1.0, 2.0);
+  EXPECT_NEAR(unit.angles_at(3.0).pan_rad - unit.reported(3.0)->pan_rad, missed_rad, 1e-9);
+  unit.go_to(PtzUnit::kPan, 0.0, radians(60.0), 4.0);
+  EXPECT_GT(std::abs(unit.angles_at(6.0).pan_rad - missed_rad), radians(0.01));
 }
 
 }  // namespace
