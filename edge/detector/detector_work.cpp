@@ -10,7 +10,8 @@ Found PictureDetector::look(const Picture& picture) {
   if (!detector_) detector_.emplace(config_, picture.gray.size());
   Found found;
   found.mid_exposure_s = picture.mid_exposure_s;
-  const auto result = detector_->advance(picture.gray, picture.mid_exposure_s, picture.motion);
+  const auto result =
+      detector_->advance(picture.gray, picture.mid_exposure_s, picture.motion, picture.star_motion);
   found.suspended = result.suspended;
   found.motion = result.motion;
   found.from_s = std::exchange(looked_s_, picture.mid_exposure_s);

@@ -16,6 +16,9 @@ struct Picture {
   // The mount's motion, which maps the previous picture's pixels to this picture's; nullopt if
   // unknown.
   std::optional<Eigen::Matrix3d> motion;
+  // Maps the previous picture's pixel of a star to this picture's, by the mount's angles and the
+  // earth's rotation; nullopt by day, or if unknown.
+  std::optional<Eigen::Matrix3d> star_motion = {};
 };
 
 struct Found {

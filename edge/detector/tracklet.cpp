@@ -20,6 +20,7 @@ Tracklet::Tracklet(long id, const Detection& detection, double image_width_px)
       origin_(detection.pixel),
       mark_(detection.pixel),
       rest_(detection.pixel),
+      star_(detection.pixel),
       first_pixel_(detection.pixel),
       measured_pixel_(detection.pixel),
       measured_sd_px_(detection.sd_px()),
@@ -44,12 +45,14 @@ void Tracklet::begin_motion(const Detection& detection, double image_width_px) {
   covariance_(1, 1) = kPathSpeed_px_s * kPathSpeed_px_s;
 }
 
-void Tracklet::predict(const Eigen::Matrix3d& motion, double interval_s) {
+void Tracklet::predict(const Eigen::Matrix3d& motion, double interval_s,
+                       const std::optional<Eigen::Matrix3d>& star_motion) {
   const Eigen::Vector2d moved = tracker::transform(motion, pixel_);
   velocity_px_s_ =
       tracker::transform(motion, Eigen::Vector2d(pixel_ + velocity_px_s_ * interval_s)) - moved;
   if (interval_s > 0.0) velocity_px_s_ /= interval_s;
   pixel_ = moved + velocity_px_s_ * interval_s;
+  star_ = tracker::transform(star_motion.value_or(motion), star_);
   for (Eigen::Vector2d* const at : {&origin_, &mark_, &rest_})
     *at = tracker::transform(motion, *at);
   Eigen::Matrix2d step;
@@ -79,7 +82,7 @@ void Tracklet::measure_way(double interval_s) {
 }
 
 void Tracklet::forget_way() {
-  origin_ = mark_ = rest_ = first_pixel_ = pixel_;
+  origin_ = mark_ = rest_ = star_ = first_pixel_ = pixel_;
   path_px_ = reach_px_ = rested_s_ = marked_s_ = 0.0;
   rests_ = false;
 }

@@ -17,8 +17,9 @@ class Tracklet {
   Tracklet(long id, const Detection& detection, double image_width_px);
 
   // Predicts the state for the next image; `motion` maps pixels of the previous image to that
-  // image.
-  void predict(const Eigen::Matrix3d& motion, double interval_s);
+  // image, and `star_motion` those of a star.
+  void predict(const Eigen::Matrix3d& motion, double interval_s,
+               const std::optional<Eigen::Matrix3d>& star_motion = std::nullopt);
   void update(const Detection& detection);
   // Notes that the object was found again at another place than predicted: position and velocity
   // begin anew.
@@ -74,6 +75,8 @@ class Tracklet {
   // the largest distance, in the image, from the place where it began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
   double reach_px() const { return reach_px_; }
+  // The distance from where a star would be that was at the place where it began.
+  double off_star_px() const { return (pixel_ - star_).norm(); }
   // Whether it has not moved relative to the scene in the last seconds.
   bool rests() const { return rests_; }
   // Forgets its motion so far, because the camera's motion was unknown.
@@ -90,6 +93,7 @@ class Tracklet {
   // The places where it began, where it was a moment ago, and where it was a second ago; all three
   // move with the scene.
   Eigen::Vector2d origin_, mark_, rest_;
+  Eigen::Vector2d star_;         // where a star would be that was at origin_ when it began
   Eigen::Vector2d first_pixel_;  // place in the image where it began
   Eigen::Vector2d measured_pixel_;
   double measured_sd_px_;

@@ -127,8 +127,16 @@ bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
          way_px > config_.least_directness * tracklet.path_px();
 }
 
+// A star is a clear spot like any other, and one that twinkles begins anew again and again. What
+// hovers leaves the star's path within seconds, because the sky turns.
+bool TrackletBook::may_be_star(const Tracklet& tracklet) const {
+  constexpr double kTold_px = 4.0;  // a shorter way tells nothing: the spot's own error
+  return stars_show_ && tracklet.off_star_px() < kTold_px;
+}
+
 void TrackletBook::judge(Tracklet& tracklet) const {
-  if (tracklet.log_ratio() >= needed(tracklet) && moves_or_flies(tracklet))
+  if (tracklet.log_ratio() >= needed(tracklet) && moves_or_flies(tracklet) &&
+      !may_be_star(tracklet))
     tracklet.confirm(!crowded(tracklet.pixel()));
   if (tracklet.rests() && !tracklet.confirmed_clear()) tracklet.doubt();
   if (belongs_to_scene_or_camera(tracklet)) tracklet.doubt();
@@ -147,13 +155,15 @@ bool TrackletBook::hopeless(const Tracklet& tracklet) const {
 }
 
 void TrackletBook::advance(const std::vector<Detection>& detections,
-                           const std::optional<Eigen::Matrix3d>& motion, double interval_s) {
+                           const std::optional<Eigen::Matrix3d>& motion, double interval_s,
+                           const std::optional<Eigen::Matrix3d>& star_motion) {
   constexpr double kForget_s = 1.0;  // a pause: what is there now may be any other object
   clutter_.next_image(interval_s);
   stack_clutter_.next_image(interval_s);
   if (interval_s > kForget_s) tracklets_.clear();
+  stars_show_ = star_motion.has_value();
   for (Tracklet& tracklet : tracklets_) {
-    tracklet.predict(motion.value_or(Eigen::Matrix3d::Identity()), interval_s);
+    tracklet.predict(motion.value_or(Eigen::Matrix3d::Identity()), interval_s, star_motion);
     if (!motion) tracklet.forget_way();
   }
   const std::vector<int> assigned = assign(detections);

@@ -33,8 +33,10 @@ class TrackletBook {
   TrackletBook(const TrackletConfig& config, const cv::Size& image);
 
   // `motion` maps pixels of the previous image to the present one; nullopt if unknown.
+  // `star_motion`: the same of stars; nullopt if none show.
   void advance(const std::vector<Detection>& detections,
-               const std::optional<Eigen::Matrix3d>& motion, double interval_s);
+               const std::optional<Eigen::Matrix3d>& motion, double interval_s,
+               const std::optional<Eigen::Matrix3d>& star_motion = std::nullopt);
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }
 
  private:
@@ -47,6 +49,7 @@ class TrackletBook {
   // The threshold of the sequential test in the tracklet's tile [log].
   double needed(const Tracklet& tracklet) const;
   void judge(Tracklet& tracklet) const;
+  bool may_be_star(const Tracklet& tracklet) const;
   bool crowded(const Eigen::Vector2d& pixel) const;
   bool belongs_to_scene_or_camera(const Tracklet& tracklet) const;
   bool moves_or_flies(const Tracklet& tracklet) const;
@@ -57,6 +60,7 @@ class TrackletBook {
   ClutterMap clutter_, stack_clutter_;
   cv::Size image_;
   std::vector<Tracklet> tracklets_;
+  bool stars_show_ = false;
   long next_id_ = 1;
 };
 

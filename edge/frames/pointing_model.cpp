@@ -182,6 +182,18 @@ std::optional<Eigen::Matrix3d> PointingModel::homography(double from_s, double t
   return camera_matrix(zoom_to->camera) * K_from.inverse() * rotation_homography(wide, from, to);
 }
 
+std::optional<Eigen::Matrix3d> PointingModel::star_motion(double from_s, double to_s) const {
+  constexpr double kEarth_rad_s = 7.2921159e-5;
+  const auto unit = angles_at(from_s);
+  const auto camera = unit ? camera_at(*unit) : std::nullopt;
+  const auto turned = homography(from_s, to_s);
+  if (!camera || !turned) return std::nullopt;
+  const Eigen::AngleAxisd turn(-kEarth_rad_s * (to_s - from_s), Eigen::Vector3d::UnitZ());
+  const Eigen::Matrix3d K = camera_matrix(camera->intrinsics);
+  return *turned * K * camera->R_camera_ecef * turn * camera->R_camera_ecef.transpose() *
+         K.inverse();
+}
+
 std::optional<Eigen::Vector2d> PointingModel::pixel_of(const PanTilt& angles,
                                                        const AzimuthElevation& direction) const {
   constexpr double kFar_m = 1e6;

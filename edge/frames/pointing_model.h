@@ -91,6 +91,9 @@ class PointingModel {
   // Maps pixels at one instant to pixels at another, for a scene at infinity, by the unit's reports
   // alone.
   std::optional<Eigen::Matrix3d> homography(double from_s, double to_s) const;
+  // Maps the pixel of a star at one instant to its pixel at another, by the unit's reports and the
+  // earth's rotation.
+  std::optional<Eigen::Matrix3d> star_motion(double from_s, double to_s) const;
   // The line of sight of a pixel, computed from the unit's angles and their covariance.
   std::optional<LineOfSight> sight(PixelSight pixel, const UnitAngles& unit) const;
   // The pixel of a direction at infinity.

@@ -7,6 +7,7 @@
 
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
+#include "calibration/sky.h"
 #include "conditions/alarms.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/command/rearm_signal.h"
@@ -211,10 +212,21 @@ void StationProcess::show_frame(const camera::Frame& frame) {
   video->offer(std::move(*shown));
 }
 
+bool StationProcess::is_night(double now_s) {
+  constexpr double kInterval_s = 60.0;
+  if (now_s < night_judged_s_ + kInterval_s) return is_night_;
+  night_judged_s_ = now_s;
+  const Geodetic& place = settings().station.geometry.position;
+  const auto sun = calibration::sun_direction(clock_.utime_us(now_s), place,
+                                              calibration::standard_air(place.height_m), {});
+  return is_night_ = sun.elevation_rad < 0.0;
+}
+
 void StationProcess::detect(double now_s) {
   if (!detector_) return;
   if (auto found = detector_->take()) station_.on_found(std::move(*found));
-  if (auto picture = station_.picture_to_search(now_s)) detector_->give(std::move(*picture));
+  if (auto picture = station_.picture_to_search(now_s, is_night(now_s)))
+    detector_->give(std::move(*picture));
 }
 
 void StationProcess::compare_skyline(double now_s) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -50,6 +51,7 @@ class StationProcess {
   void receive_commands();
   double take_frame();  // returns how long it waited for a frame [s]
   void show_frame(const camera::Frame& frame);
+  bool is_night(double now_s);
   void detect(double now_s);
   void compare_skyline(double now_s);
   void take_zoom();
@@ -91,6 +93,8 @@ class StationProcess {
   DeviceSet devices_;
   FrameDesk frames_;
   std::optional<camera::Frame> newest_;
+  bool is_night_ = false;
+  double night_judged_s_ = -std::numeric_limits<double>::infinity();
   bool halted_ = false;  // the mount refuses to move until the station is re-armed
   Due due_;
 };

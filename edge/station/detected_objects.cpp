@@ -41,8 +41,8 @@ void DetectedObjects::on_frame(const camera::Frame& frame,
   if (is_due || (waiting_ && looks_)) waiting_ = Look{frame, followed, now_s};
 }
 
-std::optional<detector::Picture> DetectedObjects::take(const PointingModel& pointing,
-                                                       double now_s) {
+std::optional<detector::Picture> DetectedObjects::take(const PointingModel& pointing, double now_s,
+                                                       bool stars_show) {
   if (!waiting_ || looks_) return std::nullopt;
   const double mid_s = waiting_->frame.mid_exposure_s;
   const auto angles = pointing.angles_at(mid_s);
@@ -51,6 +51,7 @@ std::optional<detector::Picture> DetectedObjects::take(const PointingModel& poin
   looks_ = std::exchange(waiting_, std::nullopt);
   detector::Picture picture{looks_->frame.gray, mid_s, std::nullopt};
   if (looked_s_) picture.motion = pointing.homography(*looked_s_, mid_s);
+  if (looked_s_ && stars_show) picture.star_motion = pointing.star_motion(*looked_s_, mid_s);
   looked_s_ = mid_s;
   return picture;
 }

@@ -34,10 +34,11 @@ class DetectedObjects {
   // target, if the frame gives a bearing of that target.
   void on_frame(const camera::Frame& frame, const std::optional<FollowedBox>& followed,
                 double now_s);
-  // The next picture for the detector, with the mount's motion. The motion needs the mount's angles
-  // before and after the exposure. nullopt if no picture is due, or if those angles have not
-  // arrived yet.
-  std::optional<detector::Picture> take(const PointingModel& pointing, double now_s);
+  // The next picture for the detector, with the mount's motion and, if stars show, with theirs. The
+  // motion needs the mount's angles before and after the exposure. nullopt if no picture is due, or
+  // if those angles have not arrived yet.
+  std::optional<detector::Picture> take(const PointingModel& pointing, double now_s,
+                                        bool stars_show = false);
   // Takes the result of the last picture. Returns the pixels that become bearings: those of the
   // likeliest confirmed objects in the picture, except the followed target. `new_track_id` returns
   // an id that no other object of this station has.

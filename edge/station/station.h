@@ -70,9 +70,9 @@ class Station {
   void on_frame(const camera::Frame& frame, double now_s);
   // For the detector, if there is one: picture_to_search() returns the picture that the detector is
   // to process, one at a time; on_found() then takes what was found in it. Pictures are provided in
-  // every state, as long as the mount's angles are trusted.
-  std::optional<detector::Picture> picture_to_search(double now_s) {
-    return detected_.take(pointing_, now_s);
+  // every state, as long as the mount's angles are trusted. `stars_show`: whether it is night.
+  std::optional<detector::Picture> picture_to_search(double now_s, bool stars_show = false) {
+    return detected_.take(pointing_, now_s, stars_show);
   }
   void on_found(detector::Found found);
   // Sets the PTU's travel limits, once they are known.

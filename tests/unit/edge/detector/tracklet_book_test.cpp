@@ -127,6 +127,26 @@ TEST(TrackletBook, BeforeTheGroundOnlyWhatTravelsIsConfirmed) {
   }
 }
 
+// A clear spot in ten seconds of a night in which stars move by 0.1 px an image. `scene_px`: what
+// the images show of the scene's motion; without a scene, they show that of the stars.
+long confirmed_at_night(double step_px, double scene_px) {
+  Eigen::Matrix3d motion = kStill, star_motion = kStill;
+  motion(0, 2) = scene_px;
+  star_motion(0, 2) = 0.1;
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 100; ++image)
+    book.advance({clear_spot(100.0 + step_px * image, 200.0)}, motion, 0.1, star_motion);
+  return confirmed(book);
+}
+
+TEST(TrackletBook, AStarIsNoObjectAndWhatHoversBesideItIsOne) {
+  for (const double scene_px : {0.0, 0.1}) {
+    EXPECT_EQ(confirmed_at_night(0.1, scene_px), 0);
+    EXPECT_EQ(confirmed_at_night(2.0, scene_px), 1);
+  }
+  EXPECT_EQ(confirmed_at_night(0.0, 0.0), 1);
+}
+
 // A clear spot that began with a turning camera and moves `own_px` an image relative to the scene,
 // which moves `scene_px`.
 long confirmed_in_turn(double scene_px, double own_px) {

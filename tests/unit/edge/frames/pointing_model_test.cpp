@@ -49,6 +49,23 @@ TEST(PointingModel, AimsOnlyWithinTheTravel) {
   EXPECT_FALSE(pointing.aim({radians(20.0), 0.0})) << "the unit told of less travel";
 }
 
+TEST(PointingModel, StarsTurnAboutThePole) {
+  PointingModel pointing(config());
+  for (int i = 0; i <= 10; ++i) pointing.add(angle_sample(0.1 * i, {}));
+  const double hour_angle_rad = radians(360.0 / 86164.0905);  // in a second
+  const auto motion = pointing.star_motion(0.0, 1.0);
+  ASSERT_TRUE(motion);
+  // It looks level, to 30 degrees: a star there sinks or rises by the cosine of the latitude times
+  // the sine of the azimuth.
+  const CameraIntrinsics& camera = pointing.geometry().camera;
+  const Eigen::Vector3d from(camera.cx_px, camera.cy_px, 1.0);
+  const Eigen::Vector2d to = (*motion * from).hnormalized();
+  const double up_rad = hour_angle_rad * std::cos(radians(49.2)) * std::sin(radians(30.0));
+  const double right_rad = hour_angle_rad * std::sin(radians(49.2));
+  EXPECT_NEAR(to.y() - camera.cy_px, -up_rad * camera.fy_px, 1e-3);
+  EXPECT_NEAR(to.x() - camera.cx_px, right_rad * camera.fx_px, 1e-3);
+}
+
 // A unit of more than a turn gets to the same direction by other counts.
 TEST(PointingModel, ReachesADirectionByTheCountsThatAreNear) {
   PointingModel pointing(config());

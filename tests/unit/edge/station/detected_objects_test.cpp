@@ -104,6 +104,17 @@ TEST_F(DetectedObjectsTest, APictureComesWithTheMountsMotionSinceTheOneBefore) {
   EXPECT_NEAR(std::abs(moved.hnormalized().x() - 639.5), expected_px, 0.1);
 }
 
+TEST_F(DetectedObjectsTest, AtNightAPictureComesWithTheStarsMotion) {
+  for (const bool night : {false, true}) {
+    image(night ? 0.7 : 0.2, {});
+    frame(night ? 0.9 : 0.4);
+    taken_ = objects_->take(pointing_, night ? 0.9 : 0.4, night);
+    ASSERT_TRUE(taken_);
+    EXPECT_EQ(taken_->star_motion.has_value(), night);
+    found({});
+  }
+}
+
 TEST_F(DetectedObjectsTest, ItWaitsForTheAnglesAfterTheExposureButNotForLong) {
   frame(1.99);
   EXPECT_FALSE(take(1.995));
