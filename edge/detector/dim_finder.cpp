@@ -144,8 +144,8 @@ bool DimFinder::measure(Point& point) const {
   });
   if (!off) return false;
   const double sum =
-      sign * line.along_without_scene(point.pixel + *off, point.velocity_px, kStacked);
-  if (sum < config_.next_sd) return false;
+      sign * line.along_without_texture(point.pixel + *off, point.velocity_px, kStacked);
+  if (!(sum >= config_.next_sd)) return false;
   point.signal_to_noise = sum;
   // `off` is the deviation in the middle of the images; the velocity's part grows until the newest.
   point.velocity_px += kGain * *off;
@@ -257,7 +257,7 @@ bool DimFinder::confirm(Point& point) const {
   point.pixel = best_middle + kToMiddle * best_velocity;
   point.signal_to_noise = sign * line.along_without_scene(point.pixel, point.velocity_px, kStacked);
   const double sum =
-      sign * line.along_without_scene(point.pixel, point.velocity_px, ResidualPast::kImages);
+      sign * line.along_without_texture(point.pixel, point.velocity_px, ResidualPast::kImages);
   return sum >= config_.line_sd && is_inside(point.pixel) && is_alone(line, point, sum);
 }
 

@@ -95,4 +95,28 @@ double LineSum::along_without_scene(const Eigen::Vector2d& pixel,
   return kWithoutScene * sum / noise_ / std::sqrt(static_cast<double>(images));
 }
 
+double LineSum::along_without_texture(const Eigen::Vector2d& pixel,
+                                      const Eigen::Vector2d& velocity_px,
+                                      std::size_t images) const {
+  constexpr int kReach = 6;          // paths to each side: where the noise is measured, too
+  constexpr double kApart_px = 6.0;  // beyond the matched filter, so that each has its own noise
+  // On nearer ones, the point itself is a part of the scene that is subtracted.
+  constexpr double kAside_px = 9.0;
+  const Eigen::Vector2d across = Eigen::Vector2d(-velocity_px.y(), velocity_px.x()).normalized();
+  double squares = 0.0;
+  int count = 0;
+  for (int y = -kReach; y <= kReach; ++y) {
+    for (int x = -kReach; x <= kReach; ++x) {
+      const Eigen::Vector2d off = kApart_px * Eigen::Vector2d(x, y);
+      if (std::abs(off.dot(across)) < kAside_px) continue;
+      const double sum = along_without_scene(pixel + off, velocity_px, images);
+      squares += sum * sum;
+      ++count;
+    }
+  }
+  constexpr double kWhite = 1.2;  // in white noise they spread less
+  const double spread = std::sqrt(squares / count);
+  return along_without_scene(pixel, velocity_px, images) / (spread < kWhite ? 1.0 : spread);
+}
+
 }  // namespace ols::detector

@@ -26,6 +26,10 @@ class LineSum {
   // times as long.
   double along_without_scene(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                              std::size_t images) const;
+  // The same in standard deviations of such sums along parallel paths around it, if these differ
+  // more than in white noise: texture, of a cloud for instance, that moves along with the point.
+  double along_without_texture(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
+                               std::size_t images) const;
 
  private:
   std::optional<double> value(std::size_t age, const Eigen::Vector2d& pixel) const;

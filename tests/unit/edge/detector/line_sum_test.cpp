@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <random>
 
 #include "edge/detector/binned_residual.h"
@@ -90,6 +91,27 @@ TEST(LineSum, AddsUpWhatMovesAndNotWhatIsStill) {
   EXPECT_LT(along.along(mover, -velocity, 16), 6.0);
   EXPECT_GT(at_rest.along(still, none, 16), 15.0);
   EXPECT_LT(std::abs(at_rest.along_without_scene(still, none, 16)), 3.0);
+}
+
+TEST(LineSum, AmongTextureThatMovesAlongAPointCountsLess) {
+  cv::Mat texture(kSize.height, 2 * kSize.width, CV_32F);
+  cv::RNG(9).fill(texture, cv::RNG::NORMAL, 0.0, 5.0);
+  cv::GaussianBlur(texture, texture, cv::Size(0, 0), 1.5);
+  const Eigen::Vector2d mover(160.5, 100.5), velocity(2.0, 0.0);
+  const auto sums = [&](double texture_levels) {
+    const ResidualPast past = past_of([&](int i, cv::Mat& picture) {
+      cv::scaleAdd(texture(cv::Rect({kSize.width / 2 - 2 * i, 0}, kSize)), texture_levels, picture,
+                   picture);
+      add(picture, 130 + 2 * i, 100, 8.0);
+    });
+    const LineSum line(past, mover);
+    return Eigen::Vector2d(line.along_without_scene(mover, velocity, 16),
+                           line.along_without_texture(mover, velocity, 16));
+  };
+  const Eigen::Vector2d alone = sums(0.0), among = sums(1.0);
+  EXPECT_GT(alone.y(), 0.8 * alone.x());
+  EXPECT_GT(among.x(), 10.0);
+  EXPECT_LT(among.y(), 0.6 * among.x());
 }
 
 TEST(LineSum, OneImageCountsLittle) {
