@@ -116,16 +116,15 @@ class Bench {
     ols::tracker::Random random(seed);
     ols::detector::PictureDetector detector(config_);
     std::set<long> known;
-    std::optional<Eigen::Matrix3d> star_motion;
+    detector::Stars stars;
     if (const auto drift = weather->star_drift_px_s()) {
-      star_motion = Eigen::Matrix3d::Identity();
-      star_motion->topRightCorner<2, 1>() = *drift / kRate_hz;
+      stars = {true, Eigen::Matrix3d::Identity()};
+      stars.motion->topRightCorner<2, 1>() = *drift / kRate_hz;
     }
     for (int i = 0; i < static_cast<int>(kWatch_s * kRate_hz); ++i) {
       const cv::Mat gray = noise_.develop(weather->next(1.0 / kRate_hz), random);
       // The mount stands still and says so.
-      const auto found =
-          detector.look({gray, i / kRate_hz, Eigen::Matrix3d::Identity(), star_motion});
+      const auto found = detector.look({gray, i / kRate_hz, Eigen::Matrix3d::Identity(), stars});
       for (const Tracklet& tracklet : found.confirmed) {
         if (!known.insert(tracklet.id()).second) continue;
         tally.count(way_of(tracklet));

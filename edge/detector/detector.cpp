@@ -83,7 +83,7 @@ std::optional<tracker::ImageMotion> Detector::measure_motion(
 
 Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
                                    const std::optional<Eigen::Matrix3d>& predicted,
-                                   const std::optional<Eigen::Matrix3d>& star_motion) {
+                                   const Stars& stars) {
   const tracker::ReducedFrame frame = tracker::reduce_frame(gray, kMotionWidth_px);
   tracker::ReducedFrame small = tracker::reduce_frame(frame.image, kMoverWidth_px);
   small.reduction *= frame.reduction;
@@ -105,7 +105,7 @@ Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
     join(result.detections, *movers);
     join(result.detections, dim_.find(gray, time_s, motion), book_.tracklets());
   }
-  book_.advance(result.detections, motion, interval_s, star_motion);
+  book_.advance(result.detections, motion, interval_s, stars);
   return result;
 }
 

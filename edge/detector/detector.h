@@ -33,10 +33,8 @@ class Detector {
   };
   // `gray`: 8-bit, one channel, always of the same size. `predicted`: the motion according to the
   // mount. It maps the previous image's pixels to this image's, and is refined with the images.
-  // `star_motion`: as in Picture.
   Result advance(const cv::Mat& gray, double time_s,
-                 const std::optional<Eigen::Matrix3d>& predicted,
-                 const std::optional<Eigen::Matrix3d>& star_motion = std::nullopt);
+                 const std::optional<Eigen::Matrix3d>& predicted, const Stars& stars = {});
 
   const std::vector<Tracklet>& tracklets() const { return book_.tracklets(); }
   long suspended_images() const { return suspended_images_; }

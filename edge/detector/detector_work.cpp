@@ -11,7 +11,7 @@ Found PictureDetector::look(const Picture& picture) {
   Found found;
   found.mid_exposure_s = picture.mid_exposure_s;
   const auto result =
-      detector_->advance(picture.gray, picture.mid_exposure_s, picture.motion, picture.star_motion);
+      detector_->advance(picture.gray, picture.mid_exposure_s, picture.motion, picture.stars);
   found.suspended = result.suspended;
   found.motion = result.motion;
   found.from_s = std::exchange(looked_s_, picture.mid_exposure_s);

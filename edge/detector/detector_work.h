@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edge/detector/detector.h"
+#include "edge/detector/stars.h"
 
 namespace ols::detector {
 
@@ -16,9 +17,7 @@ struct Picture {
   // The mount's motion, which maps the previous picture's pixels to this picture's; nullopt if
   // unknown.
   std::optional<Eigen::Matrix3d> motion;
-  // Maps the previous picture's pixel of a star to this picture's, by the mount's angles and the
-  // earth's rotation; nullopt by day, or if unknown.
-  std::optional<Eigen::Matrix3d> star_motion = {};
+  Stars stars = {};
 };
 
 struct Found {

@@ -103,19 +103,23 @@ double LineSum::along_without_texture(const Eigen::Vector2d& pixel,
   // On nearer ones, the point itself is a part of the scene that is subtracted.
   constexpr double kAside_px = 9.0;
   const Eigen::Vector2d across = Eigen::Vector2d(-velocity_px.y(), velocity_px.x()).normalized();
+  const double last = static_cast<double>(images - 1);
+  const auto is_inside = [&](const Eigen::Vector2d& newest) {
+    return value(0, newest) && value(images - 1, newest - last * velocity_px);
+  };
   double squares = 0.0;
   int count = 0;
   for (int y = -kReach; y <= kReach; ++y) {
     for (int x = -kReach; x <= kReach; ++x) {
       const Eigen::Vector2d off = kApart_px * Eigen::Vector2d(x, y);
-      if (std::abs(off.dot(across)) < kAside_px) continue;
+      if (std::abs(off.dot(across)) < kAside_px || !is_inside(pixel + off)) continue;
       const double sum = along_without_scene(pixel + off, velocity_px, images);
       squares += sum * sum;
       ++count;
     }
   }
   constexpr double kWhite = 1.2;  // in white noise they spread less
-  const double spread = std::sqrt(squares / count);
+  const double spread = std::sqrt(squares / std::max(1, count));
   return along_without_scene(pixel, velocity_px, images) / (spread < kWhite ? 1.0 : spread);
 }
 

@@ -77,6 +77,8 @@ class Tracklet {
   double reach_px() const { return reach_px_; }
   // The distance from where a star would be that was at the place where it began.
   double off_star_px() const { return (pixel_ - star_).norm(); }
+  // How far that star has moved relative to the scene.
+  double star_path_px() const { return (star_ - origin_).norm(); }
   // Whether it has not moved relative to the scene in the last seconds.
   bool rests() const { return rests_; }
   // Forgets its motion so far, because the camera's motion was unknown.

@@ -128,10 +128,12 @@ bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
 }
 
 // A star is a clear spot like any other, and one that twinkles begins anew again and again. What
-// hovers leaves the star's path within seconds, because the sky turns.
+// hovers leaves the star's path within seconds, because the sky turns. The path is less certain the
+// longer it is: the heading may be wrong, and a wide lens is no pinhole.
 bool TrackletBook::may_be_star(const Tracklet& tracklet) const {
-  constexpr double kTold_px = 4.0;  // a shorter way tells nothing: the spot's own error
-  return stars_show_ && tracklet.off_star_px() < kTold_px;
+  constexpr double kSpot_px = 4.0, kShare = 0.2;
+  if (!stars_.show) return false;
+  return !stars_.motion || tracklet.off_star_px() < kSpot_px + kShare * tracklet.star_path_px();
 }
 
 void TrackletBook::judge(Tracklet& tracklet) const {
@@ -156,14 +158,14 @@ bool TrackletBook::hopeless(const Tracklet& tracklet) const {
 
 void TrackletBook::advance(const std::vector<Detection>& detections,
                            const std::optional<Eigen::Matrix3d>& motion, double interval_s,
-                           const std::optional<Eigen::Matrix3d>& star_motion) {
+                           const Stars& stars) {
   constexpr double kForget_s = 1.0;  // a pause: what is there now may be any other object
   clutter_.next_image(interval_s);
   stack_clutter_.next_image(interval_s);
   if (interval_s > kForget_s) tracklets_.clear();
-  stars_show_ = star_motion.has_value();
+  stars_ = stars;
   for (Tracklet& tracklet : tracklets_) {
-    tracklet.predict(motion.value_or(Eigen::Matrix3d::Identity()), interval_s, star_motion);
+    tracklet.predict(motion.value_or(Eigen::Matrix3d::Identity()), interval_s, stars.motion);
     if (!motion) tracklet.forget_way();
   }
   const std::vector<int> assigned = assign(detections);

@@ -7,6 +7,7 @@
 
 #include "edge/detector/clutter_map.h"
 #include "edge/detector/detection.h"
+#include "edge/detector/stars.h"
 #include "edge/detector/tracklet.h"
 
 namespace ols::detector {
@@ -33,10 +34,9 @@ class TrackletBook {
   TrackletBook(const TrackletConfig& config, const cv::Size& image);
 
   // `motion` maps pixels of the previous image to the present one; nullopt if unknown.
-  // `star_motion`: the same of stars; nullopt if none show.
   void advance(const std::vector<Detection>& detections,
                const std::optional<Eigen::Matrix3d>& motion, double interval_s,
-               const std::optional<Eigen::Matrix3d>& star_motion = std::nullopt);
+               const Stars& stars = {});
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }
 
  private:
@@ -60,7 +60,7 @@ class TrackletBook {
   ClutterMap clutter_, stack_clutter_;
   cv::Size image_;
   std::vector<Tracklet> tracklets_;
-  bool stars_show_ = false;
+  Stars stars_;
   long next_id_ = 1;
 };
 

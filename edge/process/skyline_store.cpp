@@ -40,7 +40,7 @@ SkylineStore::SkylineStore(const std::string& file) : path_(file), file_(file) {
 
 std::optional<skyline::HidingSkyline> SkylineStore::take_found(const skyline::SkylineOwner& owner) {
   const auto found = std::exchange(found_, std::nullopt);
-  if (!found) return std::nullopt;
+  if (!found || found->skyline.crests.empty()) return std::nullopt;
   const std::string why = why_not_used(*found, owner);
   if (why.empty()) return found->skyline;
   refused_ = alarm::saved_skyline_refused(path_ + ": " + why);

@@ -216,7 +216,9 @@ bool StationProcess::is_night(double now_s) {
   constexpr double kInterval_s = 60.0;
   if (now_s < night_judged_s_ + kInterval_s) return is_night_;
   night_judged_s_ = now_s;
-  const Geodetic& place = settings().station.geometry.position;
+  const sensors::StationPose pose = pose_->pose(now_s);
+  if (pose.position_source == sensors::PoseSource::kNone) return is_night_ = false;
+  const Geodetic& place = pose.position;
   const auto sun = calibration::sun_direction(clock_.utime_us(now_s), place,
                                               calibration::standard_air(place.height_m), {});
   return is_night_ = sun.elevation_rad < 0.0;

@@ -51,7 +51,8 @@ std::optional<detector::Picture> DetectedObjects::take(const PointingModel& poin
   looks_ = std::exchange(waiting_, std::nullopt);
   detector::Picture picture{looks_->frame.gray, mid_s, std::nullopt};
   if (looked_s_) picture.motion = pointing.homography(*looked_s_, mid_s);
-  if (looked_s_ && stars_show) picture.star_motion = pointing.star_motion(*looked_s_, mid_s);
+  picture.stars.show = stars_show;
+  if (looked_s_ && stars_show) picture.stars.motion = pointing.star_motion(*looked_s_, mid_s);
   looked_s_ = mid_s;
   return picture;
 }

@@ -97,21 +97,24 @@ TEST(LineSum, AmongTextureThatMovesAlongAPointCountsLess) {
   cv::Mat texture(kSize.height, 2 * kSize.width, CV_32F);
   cv::RNG(9).fill(texture, cv::RNG::NORMAL, 0.0, 5.0);
   cv::GaussianBlur(texture, texture, cv::Size(0, 0), 1.5);
-  const Eigen::Vector2d mover(160.5, 100.5), velocity(2.0, 0.0);
-  const auto sums = [&](double texture_levels) {
+  const Eigen::Vector2d velocity(2.0, 0.0);
+  const auto sums = [&](const cv::Point& begin, double texture_levels) {
     const ResidualPast past = past_of([&](int i, cv::Mat& picture) {
       cv::scaleAdd(texture(cv::Rect({kSize.width / 2 - 2 * i, 0}, kSize)), texture_levels, picture,
                    picture);
-      add(picture, 130 + 2 * i, 100, 8.0);
+      add(picture, begin.x + 2 * i, begin.y, 8.0);
     });
-    const LineSum line(past, mover);
-    return Eigen::Vector2d(line.along_without_scene(mover, velocity, 16),
-                           line.along_without_texture(mover, velocity, 16));
+    const Eigen::Vector2d newest(begin.x + 30.5, begin.y + 0.5);
+    const LineSum line(past, newest);
+    return Eigen::Vector2d(line.along_without_scene(newest, velocity, 16),
+                           line.along_without_texture(newest, velocity, 16));
   };
-  const Eigen::Vector2d alone = sums(0.0), among = sums(1.0);
-  EXPECT_GT(alone.y(), 0.8 * alone.x());
-  EXPECT_GT(among.x(), 10.0);
-  EXPECT_LT(among.y(), 0.6 * among.x());
+  for (const cv::Point begin : {cv::Point(130, 100), cv::Point(276, 10)}) {
+    const Eigen::Vector2d alone = sums(begin, 0.0), among = sums(begin, 1.0);
+    EXPECT_GT(alone.y(), 0.7 * alone.x()) << begin;
+    EXPECT_GT(among.x(), 10.0) << begin;
+    EXPECT_LT(3.0 * among.y(), among.x()) << begin;
+  }
 }
 
 TEST(LineSum, OneImageCountsLittle) {

@@ -135,7 +135,7 @@ long confirmed_at_night(double step_px, double scene_px) {
   star_motion(0, 2) = 0.1;
   TrackletBook book(TrackletConfig{}, kView);
   for (int image = 0; image < 100; ++image)
-    book.advance({clear_spot(100.0 + step_px * image, 200.0)}, motion, 0.1, star_motion);
+    book.advance({clear_spot(100.0 + step_px * image, 200.0)}, motion, 0.1, {true, star_motion});
   return confirmed(book);
 }
 
@@ -145,6 +145,28 @@ TEST(TrackletBook, AStarIsNoObjectAndWhatHoversBesideItIsOne) {
     EXPECT_EQ(confirmed_at_night(2.0, scene_px), 1);
   }
   EXPECT_EQ(confirmed_at_night(0.0, 0.0), 1);
+}
+
+// The heading is wrong, so the path of the star is a tenth too short.
+TEST(TrackletBook, AStarIsNoObjectHoweverLongItsPath) {
+  Eigen::Matrix3d told = kStill;
+  told(0, 2) = 0.45;
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 600; ++image)
+    book.advance({clear_spot(100.0 + 0.5 * image, 200.0)}, kStill, 0.1, {true, told});
+  EXPECT_EQ(confirmed(book), 0);
+}
+
+TEST(TrackletBook, AnImageWithoutTheMountsAnglesConfirmsNoStar) {
+  Eigen::Matrix3d star_motion = kStill;
+  star_motion(0, 2) = 0.1;
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 100; ++image) {
+    const bool known = image % 20 != 19;
+    const Stars stars{true, known ? std::optional(star_motion) : std::nullopt};
+    book.advance({clear_spot(100.0 + 0.1 * image, 200.0)}, kStill, 0.1, stars);
+  }
+  EXPECT_EQ(confirmed(book), 0);
 }
 
 // A clear spot that began with a turning camera and moves `own_px` an image relative to the scene,

@@ -67,6 +67,19 @@ TEST_F(SkylineStoreTest, IsWrittenEveryFewMinutes) {
   EXPECT_TRUE(holds(skyline::to_text({kOwner, {}}))) << "once more";
 }
 
+TEST_F(SkylineStoreTest, WhatWasDroppedIsNoTroubleToAnotherHeading) {
+  {
+    SkylineStore store(file_);
+    store.drop(kOwner);
+    ASSERT_TRUE(holds(skyline::to_text({kOwner, {}})));
+  }
+  SkylineStore later(file_);
+  skyline::SkylineOwner turned = kOwner;
+  ++turned.chain;
+  EXPECT_FALSE(later.take_found(turned));
+  EXPECT_TRUE(later.trouble().empty());
+}
+
 TEST_F(SkylineStoreTest, WhatCannotBeUsedIsNamedUntilAnotherIsSaved) {
   std::ofstream(file_) << "ols-skyline 1\nstation b";
   SkylineStore damaged(file_);

@@ -110,7 +110,7 @@ TEST_F(DetectedObjectsTest, AtNightAPictureComesWithTheStarsMotion) {
     frame(night ? 0.9 : 0.4);
     taken_ = objects_->take(pointing_, night ? 0.9 : 0.4, night);
     ASSERT_TRUE(taken_);
-    EXPECT_EQ(taken_->star_motion.has_value(), night);
+    EXPECT_EQ(taken_->stars.motion.has_value(), night);
     found({});
   }
 }
