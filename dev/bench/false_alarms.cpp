@@ -116,7 +116,7 @@ class Bench {
     ols::tracker::Random random(seed);
     ols::detector::PictureDetector detector(config_);
     std::set<long> known;
-    detector::Stars stars;
+    ols::detector::Stars stars;
     if (const auto drift = weather->star_drift_px_s()) {
       stars = {true, Eigen::Matrix3d::Identity()};
       stars.motion->topRightCorner<2, 1>() = *drift / kRate_hz;
