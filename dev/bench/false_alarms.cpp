@@ -76,7 +76,7 @@ class Tally {
     const auto bound = [this](double level, int degrees) {
       return degrees == 0 ? 0.0 : 0.5 * ols::chi_square_critical(level, degrees) / hours_;
     };
-    std::printf("| %s | %s | %.1f | %d | %.2f | %.2f to %.2f | %d | %d | %d |\n", kind.name.c_str(),
+    std::printf("| %s | %s | %.2f | %d | %.2f | %.2f to %.2f | %d | %d | %d |\n", kind.name.c_str(),
                 kind.before_sky ? "sky" : "ground", hours_, count, count / hours_,
                 bound(0.975, 2 * count), bound(0.025, 2 * count + 2), ways_[0], ways_[1], ways_[2]);
     std::fflush(stdout);
@@ -112,7 +112,7 @@ class Bench {
 
  private:
   void watch(const WeatherKind& kind, std::uint64_t seed, Tally& tally) {
-    const auto weather = ols::bench::make_weather(kind.name, size_, seed);
+    const auto weather = kind.make(size_, seed);
     ols::tracker::Random random(seed);
     ols::detector::PictureDetector detector(config_);
     std::set<long> known;

@@ -1,5 +1,6 @@
 #include "dev/bench/weather.h"
 
+#include <GeographicLib/Constants.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <random>
-#include <stdexcept>
 
 #include "edge/tracker/random.h"
 #include "sim/world/texture.h"
@@ -209,8 +209,7 @@ class Foliage : public Weather {
   }
 
   const cv::Mat1f& next(double interval_s) override {
-    gust_ = gusts_.next(random_, interval_s);
-    const double strength = std::exp(0.5 * gust_);
+    const double strength = std::exp(0.5 * gusts_.next(random_, interval_s));
     cv::Mat1f x(across_[0].size(), 0.0F), y(across_[0].size(), 0.0F);
     for (std::size_t i = 0; i < kBranches; ++i) {
       const double swing = branches_[i].next(random_, interval_s) * reach_px_ * strength / 2.0;
@@ -247,7 +246,7 @@ class Foliage : public Weather {
 
   Random random_;
   cv::Mat1f picture_, wood_, map_x_, map_y_;
-  double reach_px_ = 0.0, flutter_ = 0.0, gust_ = 0.0;
+  double reach_px_ = 0.0, flutter_ = 0.0;
   Swing gusts_{random_, 0.05};
   std::vector<Swing> branches_, leaves_;
   std::vector<cv::Mat1f> across_, down_, glints_;
@@ -387,11 +386,11 @@ class RainAndInsects : public Weather {
 class Stars : public Weather {
  public:
   Stars(const cv::Size& size, std::uint64_t seed) : random_(seed), picture_(size) {
-    constexpr double kEarth_rad_s = 7.292e-5;
     sky_ = gradient(size, between(random_, 8, 25), between(random_, 0, 6),
                     2.0 * kPi * random_.uniform());
-    drift_px_s_ = of_length(kEarth_rad_s / kPx_rad * between(random_, 0.2, 1.0),
-                            2.0 * kPi * random_.uniform());
+    drift_px_s_ =
+        of_length(GeographicLib::Constants::WGS84_omega() / kPx_rad * between(random_, 0.2, 1.0),
+                  2.0 * kPi * random_.uniform());
     twinkling_ = of_size(random_, 0.05, 0.4);
     const int count = poisson(random_, of_size(random_, 5.0, 60.0));
     for (int i = 0; i < count; ++i) {
@@ -463,24 +462,24 @@ class Blank : public Weather {
   cv::Mat1f sky_;
 };
 
+template <class Kind>
+std::unique_ptr<Weather> make(const cv::Size& picture, std::uint64_t seed) {
+  return std::make_unique<Kind>(picture, seed);
+}
+
 }  // namespace
 
 const std::vector<WeatherKind>& weather_kinds() {
-  static const std::vector<WeatherKind> kinds{{"blank", true},        {"clouds", true},
-                                              {"stars", true},        {"rain-sky", true},
-                                              {"rain-ground", false}, {"foliage", false}};
+  const auto rain = [](bool before_sky) {
+    return [before_sky](const cv::Size& size, std::uint64_t seed) {
+      return std::make_unique<RainAndInsects>(size, seed, before_sky);
+    };
+  };
+  static const std::vector<WeatherKind> kinds{
+      {"blank", true, make<Blank>},        {"clouds", true, make<Clouds>},
+      {"stars", true, make<Stars>},        {"rain-sky", true, rain(true)},
+      {"rain-ground", false, rain(false)}, {"foliage", false, make<Foliage>}};
   return kinds;
-}
-
-std::unique_ptr<Weather> make_weather(const std::string& name, const cv::Size& picture,
-                                      std::uint64_t seed) {
-  if (name == "blank") return std::make_unique<Blank>(picture, seed);
-  if (name == "clouds") return std::make_unique<Clouds>(picture, seed);
-  if (name == "stars") return std::make_unique<Stars>(picture, seed);
-  if (name == "rain-sky") return std::make_unique<RainAndInsects>(picture, seed, true);
-  if (name == "rain-ground") return std::make_unique<RainAndInsects>(picture, seed, false);
-  if (name == "foliage") return std::make_unique<Foliage>(picture, seed);
-  throw std::invalid_argument("no weather is named " + name);
 }
 
 }  // namespace ols::bench

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -33,11 +34,8 @@ class Weather {
 struct WeatherKind {
   std::string name;
   bool before_sky;  // otherwise before the ground
+  std::function<std::unique_ptr<Weather>(const cv::Size& picture, std::uint64_t seed)> make;
 };
 const std::vector<WeatherKind>& weather_kinds();
-
-// `name`: of a kind. Throws std::invalid_argument for another.
-std::unique_ptr<Weather> make_weather(const std::string& name, const cv::Size& picture,
-                                      std::uint64_t seed);
 
 }  // namespace ols::bench

@@ -1,5 +1,6 @@
 #include "edge/frames/pointing_model.h"
 
+#include <GeographicLib/Constants.hpp>
 #include <cmath>
 
 #include "edge/frames/image_turn.h"
@@ -183,12 +184,12 @@ std::optional<Eigen::Matrix3d> PointingModel::homography(double from_s, double t
 }
 
 std::optional<Eigen::Matrix3d> PointingModel::star_motion(double from_s, double to_s) const {
-  constexpr double kEarth_rad_s = 7.2921159e-5;
   const auto unit = angles_at(from_s);
   const auto camera = unit ? camera_at(*unit) : std::nullopt;
   const auto turned = homography(from_s, to_s);
   if (!camera || !turned) return std::nullopt;
-  const Eigen::AngleAxisd turn(-kEarth_rad_s * (to_s - from_s), Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd turn(-GeographicLib::Constants::WGS84_omega() * (to_s - from_s),
+                               Eigen::Vector3d::UnitZ());
   const Eigen::Matrix3d K = camera_matrix(camera->intrinsics);
   return *turned * K * camera->R_camera_ecef * turn * camera->R_camera_ecef.transpose() *
          K.inverse();
