@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
+#include <numeric>
 
 #include "tests/unit/calibration/scene.h"
 
@@ -44,6 +46,43 @@ TEST(Snooping, AStatisticIsTheChangeOfTheMisfit) {
   EXPECT_NEAR(test_statistic(adjustment, all, 2), all.misfit - without.misfit, 1e-3 * all.misfit);
   EXPECT_NEAR(test_statistic(adjustment, without, 2), all.misfit - without.misfit,
               1e-3 * all.misfit);
+}
+
+// Two sightings of six parameters whose units differ by six orders.
+BlockEquations two_sightings(double phase) {
+  Eigen::MatrixXd J(4, 6);
+  Eigen::VectorXd v(4);
+  for (int row = 0; row < 4; ++row) {
+    v[row] = std::cos(phase + 3.0 * row);
+    for (int column = 0; column < 6; ++column)
+      J(row, column) = std::pow(10.0, column) *
+                       std::sin((1.0 + phase) * (row + 1) * (column + 2) * (column + 2));
+  }
+  BlockEquations equations;
+  equations.columns.resize(6);
+  std::iota(equations.columns.begin(), equations.columns.end(), 0);
+  equations.information = J.transpose() * J;
+  equations.gradient = J.transpose() * v;
+  equations.squares = v.squaredNorm();
+  return equations;
+}
+
+TEST(Snooping, AReplacementIsTheChangeOfTheMisfit) {
+  const BlockEquations now = two_sightings(0.3), then = two_sightings(1.1);
+  const BlockEquations others = two_sightings(2.0), more = two_sightings(4.5);
+  const Eigen::MatrixXd N = now.information + others.information + more.information;
+  const Eigen::VectorXd scale = N.diagonal().cwiseSqrt().cwiseInverse();
+  const auto inverse = [&scale](const Eigen::MatrixXd& M) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * M * scale.asDiagonal();
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(6, 6);
+    return scale.asDiagonal() * scaled.ldlt().solve(unit) * scale.asDiagonal();
+  };
+  Fit fit;
+  fit.covariance = inverse(N);
+  const Eigen::VectorXd g = now.gradient - then.gradient;
+  const double expected =
+      now.squares - then.squares + g.dot(inverse(N - now.information + then.information) * g);
+  EXPECT_NEAR(replacement_statistic(fit, now, then), expected, 1e-6 * std::abs(expected));
 }
 
 }  // namespace

@@ -204,6 +204,14 @@ TEST_F(SkylineWatchTest, WhatIsHigherHidesOnlyAfterThreePicturesInTwoMinutes) {
   EXPECT_TRUE(crest(100.0)->disagrees);
 }
 
+TEST_F(SkylineWatchTest, TwoPicturesAreTooFewHoweverFarApart) {
+  build(100.0, 2.0, kHigh_rad);
+  look(100.0, {site_.camera()});
+  time_s_ += SkylineWatch::kApart_s;
+  look(100.0, {site_.camera()});
+  EXPECT_FALSE(crest(100.0));
+}
+
 TEST_F(SkylineWatchTest, WhatIsHigherHidesNothingWhereEachPictureShowsItElsewhere) {
   for (int picture = 0; picture < 4; ++picture) {
     build(100.0, 2.0, kHigh_rad + radians(0.3) * picture - radians(1.0));
