@@ -3,8 +3,6 @@
 namespace ols::mount {
 namespace {
 
-double all_variance(const AngleAt& at) { return (at.covariance + at.lasting_covariance).trace(); }
-
 // Whether they differ by more than their errors: then the pictures show something that moves.
 bool contradict(const AngleAt& a, const AngleAt& b) {
   constexpr double kMost = 9.0;  // in variances
@@ -33,8 +31,11 @@ std::optional<AngleAt> MountAngles::at(double time_s, double stamp_sd_s) const {
   if (!reported) return carried;
   const Eigen::Vector2d rate(reported->rate.pan_rad, reported->rate.tilt_rad);
   reported->covariance += rate * rate.transpose() * (stamp_sd_s * stamp_sd_s);
-  const bool surer = carried && all_variance(*carried) < all_variance(*reported) &&
-                     !contradict(*carried, *reported);
+  // The covariance by reports alone contains their error of place.
+  const bool surer =
+      carried &&
+      (carried->covariance + carried->lasting_covariance).trace() < reported->covariance.trace() &&
+      !contradict(*carried, *reported);
   if (!surer) return reported;
   carried->interpolated = reported->interpolated;
   return carried;
