@@ -15,6 +15,7 @@ from ols_demo.inside import write_in_site
 from ols_demo.live import Screen, at_work, station_lines, target_lines
 from ols_demo.observer import Observer
 from ols_demo.recording import Recording
+from ols_demo.site import Site, SiteError
 
 STATUS, TARGET = ols_msg.station_status_t, ols_msg.target_t
 HEARD_US = 1_700_000_000_000_000
@@ -163,3 +164,14 @@ def test_a_run_is_judged_by_the_chosen_targets_and_the_first_ones_truth():
     assert [t.target_id for t in recording.targets["OLS_TARGET"]] == [1, 1]
     assert recording.arrivals_us["OLS_TARGET"] == [0, 2]
     assert [t.target_id for t in recording.truth] == [0, 0]
+
+
+def test_a_process_that_runs_is_not_replaced(tmp_path):
+    """Nobody would end it."""
+    idle = ["sleep", "600"]
+    with Site(tmp_path) as site:
+        site.start("idle", idle)
+        with pytest.raises(SiteError, match="idle runs already"):
+            site.start("idle", idle)
+        site.stop("idle")
+        site.start("idle", idle)

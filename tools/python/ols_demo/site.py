@@ -42,7 +42,10 @@ class Site:
         environment: dict[str, str] | None = None,
         keep: tuple[int, ...] = (),
     ) -> int:
-        """Returns how long the log was before. `keep`: descriptors that the process inherits."""
+        """Returns how long the log was before. `keep`: descriptors that the process inherits.
+        Raises SiteError if a process of this name runs: nobody would end it."""
+        if name in self.processes and self.processes[name].poll() is None:
+            raise SiteError(f"{name} runs already")
         self.logs.mkdir(parents=True, exist_ok=True)
         with open(self.logs / f"{name}.log", "ab") as out:
             before = out.tell()
