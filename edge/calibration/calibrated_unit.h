@@ -2,7 +2,6 @@
 // angles. Pure.
 #pragma once
 
-#include "edge/mount/angle_history.h"
 #include "edge/mount/approach_history.h"
 #include "geometry/station_calibration.h"
 
@@ -23,18 +22,17 @@ class CalibratedUnit {
   // Whether a turn has as many counts as in the calibration, so that the step mode is the same.
   bool fits() const { return fits_; }
 
-  // Call in order of time.
-  void add(const mount::AngleSample& sample) { approach_.add(sample.time_s, sample.angles); }
-  void forget_angles() { approach_.clear(); }
-
-  UnitReading reading(const PanTilt& reported, const PanTilt& rate_rad_s, double time_s) const;
+  UnitReading reading(const PanTilt& reported, const PanTilt& rate_rad_s,
+                      const mount::Approach& approach) const;
   PanTilt corrected(const UnitReading& reading) const {
     return corrected_angles(calibration_.model, reading);
   }
-  // The angles that the unit reports when it has come straight from `here` and points where an
-  // ideal unit points at `corrected`. `corrected` must include whole turns of the pan axis, because
-  // angles a whole turn apart are approached from different sides.
-  PanTilt reported(const PanTilt& corrected, const PanTilt& here) const;
+  // The angles that the unit reports when it has come straight from `here`, where it stands after
+  // `approach`, and points where an ideal unit points at `corrected`. `corrected` must include
+  // whole turns of the pan axis, because angles a whole turn apart are approached from different
+  // sides.
+  PanTilt reported(const PanTilt& corrected, const PanTilt& here,
+                   const mount::Approach& approach) const;
 
  private:
   StationCalibration calibration_;
@@ -42,7 +40,6 @@ class CalibratedUnit {
   Eigen::Vector2d doubt_rad2_ = Eigen::Vector2d::Zero();
   PanTilt count_rad_;
   bool fits_ = true;
-  mount::ApproachHistory approach_;
 };
 
 }  // namespace ols::station

@@ -6,8 +6,8 @@
 
 namespace ols::station {
 
-void FrameDesk::look(const clock::ClockPair& now) {
-  for (RequestedFrame& frame : service_.take(now.monotonic_s)) post_.put(std::move(frame));
+void FrameDesk::look(const clock::ClockPair& now, const PointingModel& unit) {
+  for (RequestedFrame& frame : service_.take(now.monotonic_s, unit)) post_.put(std::move(frame));
   // One at a time: what is asked for faster than it can be sent waits in the post, which is
   // bounded.
   if (!parts_.empty()) return;

@@ -29,15 +29,14 @@ class FrameDesk {
   // Below 65 000, which leaves space for the header.
   static constexpr std::size_t kPart_bytes = 60000;
 
-  explicit FrameDesk(const mount::AngleHistory::Config& history) : service_(history) {}
-
   FrameService& service() { return service_; }
   // Passes completed frames on to the encoder; never waits.
-  void look(const clock::ClockPair& now);
+  void look(const clock::ClockPair& now, const PointingModel& unit);
   std::optional<FramePart> next();
   // Call in order of time. Returns the sightings that are to be published now.
-  std::vector<Sighting> sightings(const Bearing& bearing, std::int64_t utime_us) {
-    return sightings_.take(bearing, utime_us, service_);
+  std::vector<Sighting> sightings(const Bearing& bearing, std::int64_t utime_us,
+                                  const PointingModel& unit) {
+    return sightings_.take(bearing, utime_us, unit);
   }
 
  private:

@@ -28,17 +28,20 @@ PointingModel::PointingModel(const StationConfig& config)
       revision_pose_(pose_),
       limits_(config.limits),
       angles_(config.angles),
+      approach_({config.angles.step_rad, config.angles.step_rad}),
       zoom_(config.zoom) {
   if (config.calibration) unit_.emplace(*config.calibration);
 }
 
 void PointingModel::set_limits(const mount::Limits& limits) {
   limits_ = limits;
-  if (unit_ && limits.count.pan_rad > 0.0) unit_->set_count(limits.count);
+  if (!(limits.count.pan_rad > 0.0 && limits.count.tilt_rad > 0.0)) return;
+  approach_.set_step(limits.count);
+  if (unit_) unit_->set_count(limits.count);
 }
 
 void PointingModel::add(const mount::AngleSample& sample) {
-  if (angles_.add(sample) && unit_) unit_->add(sample);
+  if (angles_.add(sample)) approach_.add(sample.time_s, sample.angles);
 }
 
 // The turn of a calibrated unit is that of an ideal one: within a turn between two pictures, its
@@ -73,7 +76,7 @@ std::optional<ZoomPoint> PointingModel::zoom_at(double time_s) const {
 
 void PointingModel::forget_angles() {
   angles_.clear();
-  if (unit_) unit_->forget_angles();
+  approach_.clear();
 }
 
 void PointingModel::use(const StationGeometry& geometry,
@@ -112,7 +115,7 @@ UnitAngles PointingModel::unit_angles(const mount::AngleAt& at, double time_s) c
   UnitAngles unit{at.angles,       at.angles, at.rate, at.covariance, at.lasting_covariance,
                   at.interpolated, {},        time_s};
   if (calibrated()) {
-    unit.reading = unit_->reading(at.angles, at.rate, time_s);
+    unit.reading = unit_->reading(at.angles, at.rate, approach_.at(time_s));
     unit.angles = unit_->corrected(unit.reading);
   }
   return unit;
@@ -123,11 +126,25 @@ std::optional<UnitAngles> PointingModel::angles_at(double time_s, double stamp_s
   return at ? std::optional(unit_angles(*at, time_s)) : std::nullopt;
 }
 
+std::optional<ExposedCounts> PointingModel::counts_at(double time_s) const {
+  const auto at = angles_.reported().at(time_s);
+  const PanTilt& count = limits_.count;
+  if (!at || !at->interpolated || !(count.pan_rad > 0.0 && count.tilt_rad > 0.0)) {
+    return std::nullopt;
+  }
+  return ExposedCounts{.pan = at->angles.pan_rad / count.pan_rad,
+                       .tilt = at->angles.tilt_rad / count.tilt_rad,
+                       .pan_s = at->rate.pan_rad / count.pan_rad,
+                       .tilt_s = at->rate.tilt_rad / count.tilt_rad,
+                       .approach = approach_.at(time_s),
+                       .count = count};
+}
+
 PanTilt PointingModel::angles_now() const {
   const auto newest = newest_angles();
   if (!newest) return {};
   if (!calibrated()) return newest->angles;
-  return unit_->corrected(unit_->reading(newest->angles, {}, newest->time_s));
+  return unit_->corrected(unit_->reading(newest->angles, {}, approach_.at(newest->time_s)));
 }
 
 std::optional<LineOfSight> PointingModel::sight(PixelSight pixel, const UnitAngles& unit) const {
@@ -233,7 +250,7 @@ std::optional<PanTilt> PointingModel::aim_from(const PanTilt& here,
   const auto angles = aim_along(geometry_, direction);
   if (!angles || !calibrated()) return angles;
   // The turn that it goes to: the side from which it comes is that of this way.
-  return unit_->reported(reachable_from(here, *angles).value_or(*angles), here);
+  return unit_->reported(reachable_from(here, *angles).value_or(*angles), here, approach_.newest());
 }
 
 }  // namespace ols::station

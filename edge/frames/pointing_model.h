@@ -8,6 +8,8 @@
 
 #include "edge/calibration/calibrated_unit.h"
 #include "edge/camera/frame.h"
+#include "edge/frames/exposed_counts.h"
+#include "edge/mount/approach_history.h"
 #include "edge/mount/limits.h"
 #include "edge/mount/mount_angles.h"
 #include "edge/station/station_config.h"
@@ -69,6 +71,9 @@ class PointingModel {
 
   // `stamp_sd_s`: 1-sigma of an instant that is a picture's stamp; the covariance includes it.
   std::optional<UnitAngles> angles_at(double time_s, double stamp_sd_s = 0.0) const;
+  // nullopt if the unit has not reported angles before and after the instant, or the size of its
+  // counts.
+  std::optional<ExposedCounts> counts_at(double time_s) const;
   // The angles at the time of the newest sample; 0 before the first sample.
   PanTilt angles_now() const;
   std::optional<mount::AngleSample> newest_angles() const { return angles_.reported().newest(); }
@@ -120,6 +125,7 @@ class PointingModel {
   std::int64_t pose_revision_ = 0;
   mount::Limits limits_;
   mount::MountAngles angles_;
+  mount::ApproachHistory approach_;
   std::optional<CalibratedUnit> unit_;
   std::optional<lens::ZoomLens> zoom_;
   lens::ByAxis<std::optional<double>> lens_;  // positions of all axes

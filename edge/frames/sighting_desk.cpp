@@ -3,7 +3,7 @@
 namespace ols::station {
 
 std::vector<Sighting> SightingDesk::take(const Bearing& bearing, std::int64_t utime_us,
-                                         const FrameService& unit) {
+                                         const PointingModel& unit) {
   // Farther apart they do not tell what was between them.
   constexpr std::int64_t kSecond_us = 1'000'000, kApart_us = 250'000;
   const auto counts = unit.counts_at(bearing.mid_exposure_s);

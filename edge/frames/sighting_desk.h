@@ -7,7 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "edge/frames/frame_service.h"
+#include "edge/frames/exposed_counts.h"
+#include "edge/frames/pointing_model.h"
 #include "edge/station/station_types.h"
 
 namespace ols::station {
@@ -22,7 +23,7 @@ class SightingDesk {
  public:
   // Takes bearings in time order. Returns the sightings that are to be published now.
   std::vector<Sighting> take(const Bearing& bearing, std::int64_t utime_us,
-                             const FrameService& unit);
+                             const PointingModel& unit);
 
  private:
   std::optional<Sighting> last_;

@@ -27,6 +27,7 @@ class ApproachHistory {
 
   // The approach at this instant. For an instant after the newest sample: that of the newest.
   Approach at(double time_s) const;
+  Approach newest() const { return changes_.empty() ? Approach{} : changes_.back().approach; }
 
  private:
   struct Axis {

@@ -28,7 +28,8 @@ class Mount {
   // Sets the goal; nullopt means halt. The goal is dropped in an emergency, and whenever the mount
   // or its reference is lost.
   virtual void set_goal(const std::optional<Goal>& goal) = 0;
-  // The angle samples since the last call, oldest first.
+  // The angle samples since the last call, oldest first. There are none while the reference is
+  // missing or doubted.
   virtual std::vector<AngleSample> take_samples() = 0;
   // nullopt while the mount is not ready.
   virtual std::optional<Limits> limits() const = 0;

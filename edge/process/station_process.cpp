@@ -67,8 +67,7 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
       host_(settings().host),
       persisted_(settings().state_folder, settings().id, settings().gpio.has_stop()),
       journal_(settings().id, write_to_journal),
-      devices_(settings(), boot_id, outside.open_devices(settings())),
-      frames_(settings().station.angles) {
+      devices_(settings(), boot_id, outside.open_devices(settings())) {
   const DetectionConfig& detection = settings().station.detection;
   if (detection.enabled) detector_.emplace(detection.detector);
   if (!settings().land_folder.empty()) {
@@ -113,7 +112,8 @@ void StationProcess::turn() {
     // objects only.
     if (settings().station.zoom || bearing.is_tracklet()) continue;
     const std::int64_t utime_us = clock_.utime_us(bearing.mid_exposure_s);
-    for (const Sighting& sighting : frames_.sightings(bearing, utime_us)) bus_.send(sighting);
+    for (const Sighting& sighting : frames_.sightings(bearing, utime_us, station_.pointing()))
+      bus_.send(sighting);
   }
   devices_.mount().set_goal(goal(output, now.monotonic_s));
   trigger_camera(now.monotonic_s);
@@ -250,16 +250,9 @@ void StationProcess::take_zoom() {
 }
 
 void StationProcess::take_angles() {
-  const mount::Reference before = devices_.mount().reference();
-  station_.set_reference(before);
-  const auto samples = devices_.mount().take_samples();
-  // If homing begins or ends meanwhile, the reference of these samples is unknown.
-  const bool trusted =
-      before == mount::Reference::kTrusted && devices_.mount().reference() == before;
-  frames_.service().set_trusted(trusted);
-  for (const mount::AngleSample& sample : samples) {
+  station_.set_reference(devices_.mount().reference());
+  for (const mount::AngleSample& sample : devices_.mount().take_samples()) {
     station_.on_angles(sample);
-    frames_.service().on_angles(sample);
   }
 }
 
@@ -291,7 +284,7 @@ void StationProcess::trigger_camera(double now_s) {
 // Few parts per turn: sending a frame of a megabyte takes tens of milliseconds.
 void StationProcess::send_requested_frames(const clock::ClockPair& now) {
   constexpr int kParts = 2;
-  frames_.look(now);
+  frames_.look(now, station_.pointing());
   for (int i = 0; i < kParts; ++i) {
     const auto part = frames_.next();
     if (!part) return;
@@ -318,7 +311,6 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   if (limits) {
     station_.set_limits(*limits);
     calibration_.set_limits(*limits);
-    frames_.service().set_count(limits->count);
   }
   report.limits = limits.value_or(settings().station.limits);
   report.limits_known = limits.has_value();

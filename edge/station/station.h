@@ -140,6 +140,7 @@ class Station {
   StationState state() const { return mode_.state(); }
   // The angles that the unit reported last.
   std::optional<PanTilt> reported_angles() const { return pointing_.reported_angles(); }
+  const PointingModel& pointing() const { return pointing_; }
   std::optional<cv::Rect2d> target_box() const;  // in the newest frame
   StationSnapshot snapshot() const;
   // The newest frame for a viewer, without its utime. nullopt if the frame with this mid-exposure

@@ -73,8 +73,7 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
       config_(station_config(world, index, fidelity.pictures, calibration)),
       station_(config_,
                make_tracker(fidelity, views_, derived_seed(world.seed(), kTrackerTag + index))),
-      operator_(world, index, fidelity, noise_, *mount_, station_),
-      told_{station::FrameService(config_.angles)} {
+      operator_(world, index, fidelity, noise_, *mount_, station_) {
   if (config_.detection.enabled) {
     detection_.emplace(Detection{detector::PictureDetector(config_.detection.detector)});
   }
@@ -86,11 +85,7 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
 
 std::vector<station::Bearing> LockstepStation::advance(double time_s) {
   mount_->advance(monotonic_s(time_s));
-  told_.unit.set_trusted(mount_->reference() == mount::Reference::kTrusted);
-  for (const mount::AngleSample& sample : mount_->take_samples()) {
-    station_.on_angles(sample);
-    told_.unit.on_angles(sample);
-  }
+  for (const mount::AngleSample& sample : mount_->take_samples()) station_.on_angles(sample);
   move_lens(time_s);
   expose(time_s);
   operate(time_s);
@@ -169,7 +164,6 @@ void LockstepStation::operate(double time_s) {
   station_.set_reference(mount_->reference());
   const auto limits = mount_->limits();
   if (!limits) return;
-  told_.unit.set_count(limits->count);
   if (designated()) return;
   station_.set_limits(*limits);
   operator_.act(time_s);

@@ -56,7 +56,7 @@ class LockstepStation {
 
   // The station's sightings (counts and pixel) for a bearing of the last advance, by its stamp.
   std::vector<station::Sighting> sightings(const station::Bearing& bearing, std::int64_t utime_us) {
-    return told_.desk.take(bearing, utime_us, told_.unit);
+    return sightings_.take(bearing, utime_us, station_.pointing());
   }
   station::Refusal slew(station::SlewCommand command, double time_s);
   station::Refusal occlude(station::OcclusionCommand command, double time_s);
@@ -75,11 +75,6 @@ class LockstepStation {
   struct Lens {
     sim::LensUnit unit;
     lens::LensDriver driver;
-  };
-  // The counts of each exposure, and which counts are published.
-  struct Told {
-    station::FrameService unit;
-    station::SightingDesk desk = {};
   };
   // The detector. A result is available only after some time, as on a station, where the detector
   // has a thread of its own.
@@ -112,7 +107,7 @@ class LockstepStation {
   std::optional<Detection> detection_;
   LockstepOperator operator_;
   StationRecord record_;
-  Told told_;
+  station::SightingDesk sightings_;
 };
 
 }  // namespace ols::sim

@@ -39,7 +39,7 @@ TEST(CalibratedUnit, CountsAreExactWhateverTheUnitPrints) {
   const double printed = radians(11.5714 / 3600.0);
   unit.set_count({printed, printed});
   EXPECT_TRUE(unit.fits());
-  const UnitReading reading = unit.reading({49467 * printed, -100 * printed}, {}, 0.0);
+  const UnitReading reading = unit.reading({49467 * printed, -100 * printed}, {}, {});
   EXPECT_NEAR(reading.pan.counts, 49467.0, 1e-6);
   EXPECT_NEAR(reading.tilt.counts, -100.0, 1e-6);
   unit.set_count({2.0 * printed, 2.0 * printed});

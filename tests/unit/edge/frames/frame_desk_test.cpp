@@ -11,9 +11,9 @@ namespace {
 
 TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
   constexpr double kCount_rad = 5.61e-5;
-  FrameDesk desk{mount::AngleHistory::Config{}};
-  desk.service().set_count({kCount_rad, kCount_rad});
-  desk.service().set_trusted(true);
+  FrameDesk desk;
+  PointingModel unit{StationConfig{}};
+  unit.set_limits({.count = {kCount_rad, kCount_rad}});
   FrameRequest request;
   request.boot_id = 4;
   request.expires_s = 100.0;
@@ -21,7 +21,7 @@ TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
   for (int i = 0; i < 4; ++i) {
     mount::AngleSample sample;
     sample.time_s = 0.025 * i;
-    desk.service().on_angles(sample);
+    unit.add(sample);
   }
   camera::Frame frame;
   frame.gray = cv::Mat(480, 640, CV_8U);
@@ -31,7 +31,7 @@ TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
   std::vector<std::uint8_t> file;
   std::optional<FramePart> part;
   ASSERT_TRUE(eventually([&] {
-    desk.look({0.1, 1'000'000'000});
+    desk.look({0.1, 1'000'000'000}, unit);
     return (part = desk.next()).has_value();
   }));
   const std::size_t parts = part->parts;
@@ -46,7 +46,7 @@ TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
     if (i + 1 == parts) {
       EXPECT_EQ(file, part->frame->file);
     }
-    desk.look({0.2, 1'000'100'007});
+    desk.look({0.2, 1'000'100'007}, unit);
     part = desk.next();
   }
   EXPECT_FALSE(part);
@@ -55,9 +55,9 @@ TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
 // A bus that takes nothing: what is asked for must not pile up.
 TEST(FrameDesk, HoldsNoMoreThanAFewFramesHoweverManyAreAskedFor) {
   constexpr double kCount_rad = 5.61e-5;
-  FrameDesk desk{mount::AngleHistory::Config{}};
-  desk.service().set_count({kCount_rad, kCount_rad});
-  desk.service().set_trusted(true);
+  FrameDesk desk;
+  PointingModel unit{StationConfig{}};
+  unit.set_limits({.count = {kCount_rad, kCount_rad}});
   camera::Frame frame;
   frame.gray = cv::Mat::zeros(8, 8, CV_8U);  // one part
   constexpr int kAsked = 2000;
@@ -67,16 +67,16 @@ TEST(FrameDesk, HoldsNoMoreThanAFewFramesHoweverManyAreAskedFor) {
     EXPECT_EQ(desk.service().request(request), "");
     mount::AngleSample sample;
     sample.time_s = 0.025 * i;
-    desk.service().on_angles(sample);
+    unit.add(sample);
     frame.mid_exposure_s = sample.time_s - 0.01;
     desk.service().on_frame(frame);
-    desk.look({});
+    desk.look({}, unit);
     std::this_thread::yield();
   }
   int held = 0;
   EXPECT_TRUE(eventually([&] {
-    desk.look({});
-    for (; desk.next(); desk.look({})) ++held;
+    desk.look({}, unit);
+    for (; desk.next(); desk.look({}, unit)) ++held;
     return held >= 3;
   }));
   EXPECT_LE(held, 4) << "one in parts, three in the post";

@@ -9,17 +9,14 @@ constexpr double kCount_rad = 5.61e-5;
 
 class FrameServiceTest : public testing::Test {
  protected:
-  FrameServiceTest() {
-    service.set_count({kCount_rad, kCount_rad});
-    service.set_trusted(true);
-  }
+  FrameServiceTest() { pointing.set_limits({.count = {kCount_rad, kCount_rad}}); }
   // The unit's report at an instant [s], in counts.
   void unit(double time_s, double pan, double tilt) {
     mount::AngleSample sample;
     sample.time_s = time_s;
     sample.time_sd_s = 1e-4;
     sample.angles = {pan * kCount_rad, tilt * kCount_rad};
-    service.on_angles(sample);
+    pointing.add(sample);
   }
   void stands(double from_s, double to_s, double pan, double tilt) {
     for (double time_s = from_s; time_s < to_s; time_s += 0.025) unit(time_s, pan, tilt);
@@ -37,36 +34,39 @@ class FrameServiceTest : public testing::Test {
     return request;
   }
 
-  FrameService service{mount::AngleHistory::Config{}};
+  std::vector<RequestedFrame> take(double now_s) { return service.take(now_s, pointing); }
+
+  PointingModel pointing{StationConfig{}};
+  FrameService service;
 };
 
 TEST_F(FrameServiceTest, AFrameHasTheCountsOfItsExposureAndTheDirectionOfTheApproach) {
   for (int i = 0; i < 20; ++i) unit(0.025 * i, 100.0 + 40.0 * i, -10.0 * i);
   EXPECT_EQ(service.request(wanted()), "");
   frame(0.4125);
-  const auto answers = service.take(1.0);
+  const auto answers = take(1.0);
   ASSERT_EQ(answers.size(), 1U);
   EXPECT_NEAR(answers[0].counts.pan, 100.0 + 40.0 * 16.5, 1e-6);
   EXPECT_NEAR(answers[0].counts.tilt, -165.0, 1e-6);
   EXPECT_NEAR(answers[0].counts.pan_s, 1600.0, 1e-6);
   EXPECT_EQ(answers[0].counts.approach.pan, 1);
   EXPECT_EQ(answers[0].counts.approach.tilt, -1);
-  EXPECT_TRUE(service.take(1.0).empty());  // once
+  EXPECT_TRUE(take(1.0).empty());  // once
 }
 
 TEST_F(FrameServiceTest, NothingIsSentUnasked) {
   stands(0.0, 1.0, 0.0, 0.0);
   frame(0.5);
-  EXPECT_TRUE(service.take(1.0).empty());
+  EXPECT_TRUE(take(1.0).empty());
 }
 
 TEST_F(FrameServiceTest, AFrameWaitsForTheReportAfterItsExposure) {
   stands(0.0, 0.5, 7.0, 8.0);
   EXPECT_EQ(service.request(wanted()), "");
   frame(0.51);
-  EXPECT_TRUE(service.take(0.52).empty());
+  EXPECT_TRUE(take(0.52).empty());
   unit(0.525, 7.0, 8.0);
-  EXPECT_EQ(service.take(0.53).size(), 1U);
+  EXPECT_EQ(take(0.53).size(), 1U);
 }
 
 TEST_F(FrameServiceTest, TheUnitMustStandWhereItIsWanted) {
@@ -77,13 +77,13 @@ TEST_F(FrameServiceTest, TheUnitMustStandWhereItIsWanted) {
   EXPECT_EQ(service.request(request), "");
   stands(0.0, 0.3, 0.0, 0.0);  // not there
   frame(0.2);
-  EXPECT_TRUE(service.take(0.3).empty());
+  EXPECT_TRUE(take(0.3).empty());
   for (int i = 0; i < 10; ++i) unit(0.3 + 0.025 * i, 100.0 * i + 90.0, 0.0);
   stands(0.55, 0.8, 1000.0, 0.0);
   frame(0.6);  // there, but it has not stood long enough
-  EXPECT_TRUE(service.take(0.8).empty());
+  EXPECT_TRUE(take(0.8).empty());
   frame(0.75);
-  EXPECT_EQ(service.take(0.8).size(), 1U);
+  EXPECT_EQ(take(0.8).size(), 1U);
 }
 
 TEST_F(FrameServiceTest, ARequestEndsWithItsLease) {
@@ -92,7 +92,7 @@ TEST_F(FrameServiceTest, ARequestEndsWithItsLease) {
   EXPECT_EQ(service.request(request), "");
   stands(0.0, 1.0, 0.0, 0.0);
   frame(0.5);
-  EXPECT_TRUE(service.take(0.6).empty());
+  EXPECT_TRUE(take(0.6).empty());
 }
 
 TEST_F(FrameServiceTest, ANewerRequestOfOneSenderReplacesItAndTooManyAreRefused) {
@@ -103,7 +103,7 @@ TEST_F(FrameServiceTest, ANewerRequestOfOneSenderReplacesItAndTooManyAreRefused)
   EXPECT_NE(service.request(wanted(5)), "");
   stands(0.0, 1.0, 0.0, 0.0);
   frame(0.5);
-  EXPECT_EQ(service.take(0.6).size(), 4U);
+  EXPECT_EQ(take(0.6).size(), 4U);
 }
 
 TEST_F(FrameServiceTest, WhatIsNotARequestIsRefused) {
@@ -122,48 +122,32 @@ TEST_F(FrameServiceTest, WhatIsNotARequestIsRefused) {
 TEST_F(FrameServiceTest, NothingIsInterpolatedAcrossAHoming) {
   stands(0.0, 0.5, 100.0, 0.0);
   EXPECT_EQ(service.request(wanted()), "");
-  service.set_trusted(false);
-  unit(0.55, 7000.0, 0.0);  // on its way, in counts of no reference
-  frame(0.6);
-  service.set_trusted(true);
-  stands(0.7, 1.0, 300.0, 0.0);
-  EXPECT_TRUE(service.take(1.0).empty());
-  frame(0.62);
-  EXPECT_TRUE(service.take(1.0).empty()) << "exposed before it had homed";
+  pointing.forget_angles();
+  frame(0.51);
+  stands(0.52, 1.0, 300.0, 0.0);
+  EXPECT_TRUE(take(1.0).empty()) << "exposed before the first angles after the homing";
 }
 
 TEST_F(FrameServiceTest, AfterAHomingCountsAndSideAreThoseOfAfter) {
   for (int i = 0; i < 20; ++i) unit(0.025 * i, 1000.0 - 40.0 * i, 0.0);  // down
   EXPECT_EQ(service.request(wanted()), "");
-  service.set_trusted(false);
-  unit(0.6, -5000.0, 0.0);
-  service.set_trusted(true);
+  pointing.forget_angles();
+  for (int i = 0; i < 6; ++i) frame(0.5 + 0.03 * i);  // more than may wait, and none gets angles
   stands(0.7, 1.0, 300.0, 0.0);
   frame(0.9);
-  const auto answers = service.take(1.0);
+  const auto answers = take(1.0);
   ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers[0].frame.mid_exposure_s, 0.9);
   EXPECT_NEAR(answers[0].counts.pan, 300.0, 1e-6);
   EXPECT_EQ(answers[0].counts.approach.pan, 0) << "it has not moved since";
 }
 
-TEST_F(FrameServiceTest, BeforeTheReferenceIsTrustedThereIsNoAnswer) {
-  FrameService fresh{mount::AngleHistory::Config{}};
-  service = std::move(fresh);
-  service.set_count({kCount_rad, kCount_rad});
-  EXPECT_EQ(service.request(wanted()), "");
-  stands(0.0, 1.0, 0.0, 0.0);
-  frame(0.5);
-  EXPECT_TRUE(service.take(0.6).empty());
-}
-
 TEST_F(FrameServiceTest, BeforeTheCountIsKnownThereIsNoAnswer) {
-  FrameService fresh{mount::AngleHistory::Config{}};
-  service = std::move(fresh);
-  service.set_trusted(true);
+  pointing.set_limits({});
   EXPECT_EQ(service.request(wanted()), "");
   stands(0.0, 1.0, 0.0, 0.0);
   frame(0.5);
-  EXPECT_TRUE(service.take(0.6).empty());
+  EXPECT_TRUE(take(0.6).empty());
 }
 
 }  // namespace

@@ -13,14 +13,13 @@ constexpr double kStep_rad = 5.61e-5;
 class SightingDeskTest : public testing::Test {
  protected:
   SightingDeskTest() {
-    unit.set_count({kStep_rad, kStep_rad});
-    unit.set_trusted(true);
+    unit.set_limits({.count = {kStep_rad, kStep_rad}});
     for (int i = 0; i < 100; ++i) {
       mount::AngleSample sample;
       sample.time_s = 0.025 * i;
       sample.time_sd_s = 1e-4;
       sample.angles = {40.0 * i * kStep_rad, -10.0 * i * kStep_rad};
-      unit.on_angles(sample);
+      unit.add(sample);
     }
   }
   // The station's clock is zero at a whole second less 0.5 s.
@@ -32,7 +31,7 @@ class SightingDeskTest : public testing::Test {
     return desk.take(one, kWhole_us - 500'000 + std::llround(1e6 * time_s), unit);
   }
 
-  FrameService unit{mount::AngleHistory::Config{}};
+  PointingModel unit{StationConfig{}};
   SightingDesk desk;
 };
 
@@ -59,7 +58,7 @@ TEST_F(SightingDeskTest, TellsNothingAcrossAGapOrAnotherTrack) {
 
 TEST_F(SightingDeskTest, TellsNothingWhereTheCountsAreNotKnown) {
   EXPECT_TRUE(bearing(0.45).empty());
-  unit.set_trusted(false);
+  unit.forget_angles();
   EXPECT_TRUE(bearing(0.55).empty());
 }
 
