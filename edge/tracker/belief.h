@@ -7,24 +7,24 @@ namespace ols::tracker {
 
 constexpr double kBelieved = 0.5;  // above this value the tracker counts as being on the target
 
-// The evidence in one frame: the similarity of the best candidate (eq. (5), 0..1), and the
-// similarity that background reaches by chance; the candidate's correlation and contrast with the
-// target's first image.
+// The evidence for the best candidate in one frame.
 struct FrameEvidence {
-  double similarity = 0.0;
-  double background_similarity = 0.0;
-  double correlation = 0.0;
-  double contrast = 1.0;
+  double similarity = 0.0;             // eq. (5), 0..1
+  double background_similarity = 0.0;  // similarity that background reaches by chance
+  double correlation = 0.0;            // with the target's first or learnt image, -1..1
+  double contrast = 1.0;               // relative to that of the target's first image
   // LearntAppearance::recognised(), if the target is followed by its learnt appearance.
   std::optional<double> recognised = {};
   double standing_out = 1.0;  // contrast with its surroundings, relative to the target's usual one
   // Share of the target's foreground that is foreground in this frame, too.
   double foreground = 1.0;
-  // Foreground found by comparison with an earlier image, not with a grey level.
+  // The foreground was found by comparison with an earlier image. Otherwise, it was found by
+  // comparison with the grey level around the target.
   bool by_subtraction = false;
 };
 
-// The target's recent values. A sudden, much lower value means that this is another object.
+// The target's usual values, averaged over about a second. If the evidence is suddenly far below
+// them, the object is another one.
 struct Typical {
   double correlation = 1.0;
   double correlation_variance = 0.0025;
@@ -44,12 +44,14 @@ class Belief {
   void doubt() { value_ = value_ < kDoubt ? value_ : kDoubt; }
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
-  // Whether the evidence is plausible, given the target's recent values. This is stricter than
-  // similarity, for a target whose position gives no evidence.
+  // Whether the evidence is close to the target's usual values. This test is stricter than the
+  // belief. It is meant for frames in which the position is no evidence, such as the first one
+  // after a cut.
   bool usual(const FrameEvidence& evidence) const;
   // The belief that follows from this evidence alone; the Belief itself does not change.
   double in_frame(const FrameEvidence& evidence) const { return frame_belief(evidence, typical_); }
-  double of_frame() const { return of_frame_; }  // from the newest frame alone
+  // The belief that follows from the newest frame alone.
+  double of_frame() const { return of_frame_; }
 
  private:
   static constexpr double kDoubt = 0.2;

@@ -1,7 +1,7 @@
-// The colours that the target has and its surroundings do not have: two histograms, as in L.
+// Learns which colours distinguish the target from its surroundings, by two colour histograms: L.
 // Bertinetto, J. Valmadre, S. Golodetz, O. Miksik, P. H. S. Torr, "Staple: complementary learners
-// for real-time tracking", CVPR 2016. They still fit when the target turns or changes its posture,
-// so that the correlation filter no longer fits.
+// for real-time tracking", CVPR 2016. The colours still fit if the target turns or changes its
+// posture, while the correlation filter does not.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,9 @@
 
 namespace ols::tracker {
 
-// kColour: blue, green and red. kHue: only the shares of blue and red in the brightness, which the
-// exposure does not change. By hue, a grey target has no colours of its own.
+// kColour: blue, green and red. kHue: only the shares of blue and of red in the sum of the three.
+// Exposure does not change these shares. A grey target does not differ in hue from grey
+// surroundings.
 enum class Palette { kColour, kHue };
 
 class ColourLikeness {
@@ -20,16 +21,16 @@ class ColourLikeness {
   // colour image nothing is learnt, and the likeness stays unknown.
   ColourLikeness(Palette palette, const WindowView& view, const Eigen::Vector2d& size_px);
 
-  // How much the colours of a box of this size resemble the target's, for each shift of the target
-  // by a cell: 0 like the surroundings, 1 like the target. 0 everywhere if nothing is known.
+  // For each cell of the window: how much a box of this size around it resembles the target in its
+  // colours. 0 means like the surroundings, 1 like the target. 0 everywhere if no colours are
+  // known.
   Response respond(const WindowView& view, const Eigen::Vector2d& size_px) const;
-  // Learns that the target is in the middle of the window, and nowhere else in it. Afterwards, the
-  // share `share` of what is known comes from this image.
+  // Learns that the target is in the middle of the window, and nowhere else in it. `share`: the
+  // weight of this image in the new averages, 0..1.
   void learn(const WindowView& view, const Eigen::Vector2d& size_px, double share);
 
-  // How well the colours separate the target from its surroundings, 0..1. It is measured in the
-  // images that were learnt, each before it was learnt. Near 0 for a target without a colour of its
-  // own.
+  // How well the colours separate the target from its surroundings, 0..1. Each image contributes to
+  // this value before its colours are learnt. Near 0 for a target without a colour of its own.
   double separability() const;
 
  private:
@@ -38,11 +39,11 @@ class ColourLikeness {
   void learn_level(const Response::Contrast& seen, double share);
 
   Palette palette_;
-  // The share of each colour; the sum over all colours is 1.
+  // Histograms of the target and of its surroundings; each sums to 1.
   std::vector<float> target_, around_;
-  std::vector<float> probability_;  // that a pixel of this colour is the target's
-  // The mean probability of a box's pixels: its average and variance around the target, and by how
-  // much it is higher at the target.
+  std::vector<float> probability_;  // for each colour: that its pixels belong to the target
+  // The mean of this probability over a box: its average and variance over the boxes away from the
+  // target, and its excess at the target.
   double level_ = 0.0, variance_ = 0.0, above_ = 0.0;
 };
 

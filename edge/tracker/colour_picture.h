@@ -1,4 +1,4 @@
-// A colour picture as the camera delivers it. Only the parts that are needed are converted.
+// A colour picture as the camera delivers it. It converts only the part that is asked for.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -15,7 +15,8 @@ struct ColourPicture {
   bool empty() const { return image.empty(); }
   bool valid(const cv::Size& size) const;
 
-  // 8-bit blue, green, red; contains at least the part of `area` inside the picture.
+  // A converted part of the picture: 8-bit blue, green, red. part() returns at least the pixels of
+  // `area` that are inside the picture.
   struct Part {
     cv::Mat bgr;
     cv::Point origin;  // its top-left pixel

@@ -24,12 +24,13 @@ class ImagePyramid {
 
 struct FollowedCorner {
   cv::Point2f at;
-  double correlation = -1.0;  // between its surroundings in both images; -1 if it was not found
+  double correlation = -1.0;  // of its surroundings in the two images; -1 if it was not found
 };
 
-// Searches from `guess` (J.-Y. Bouguet, "Pyramidal implementation of the Lucas Kanade feature
-// tracker", Intel 2000). OpenCV's own version differentiates the whole image and uses a larger
-// window, which takes five times as long.
+// Finds in `current` the corner that is at `corner` in `previous`. The search starts at `guess`
+// (J.-Y. Bouguet, "Pyramidal implementation of the Lucas Kanade feature tracker", Intel 2000).
+// OpenCV's own version takes five times as long, because it differentiates the whole image and uses
+// a larger window.
 FollowedCorner follow_corner(const ImagePyramid& previous, const ImagePyramid& current,
                              const cv::Point2f& corner, const cv::Point2f& guess);
 

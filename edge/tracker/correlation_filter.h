@@ -8,8 +8,8 @@
 
 namespace ols::tracker {
 
-// A response to the target in a window of a frame: one value for each shift of the target by a
-// cell.
+// The response in a window of a frame. Each value is the response to a target whose centre is in
+// that cell.
 struct Response {
   struct Peak {
     // In the full frame, interpolated between cells.
@@ -35,7 +35,8 @@ struct Response {
   double prominence(const Eigen::Vector2d& pixel) const;
 };
 
-// The window around `pixel`, which is four boxes wide. `size_px`: the target's present size.
+// The square window around `pixel`. Its side is four times the geometric mean of the target's width
+// and height, `size_px`.
 FeatureWindow window_around(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
 class CorrelationFilter {
@@ -45,8 +46,8 @@ class CorrelationFilter {
 
   Response respond(const WindowView& view) const;
   // Learns that the target is in the middle of the window, and nowhere else in it. The filter
-  // changes no more than this requires, so it hardly drifts. `share`: the weight of this image; 1
-  // for an image that certainly shows the target.
+  // changes no more than necessary, and therefore hardly drifts. `share`: the weight of this image;
+  // 1 for an image that certainly shows the target.
   void learn(const WindowView& view, double share);
 
  private:

@@ -1,4 +1,4 @@
-// The designated box relative to its conspicuous part; only this part is tracked.
+// Converts between the designated box and its conspicuous part. Only this part is tracked.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,8 @@ class Designation {
   // `core`: the conspicuous part of `box`.
   Designation(const cv::Rect2d& box, const cv::Rect2d& core);
 
-  // The designated point relative to the centre of the tracked part, in sizes of that part.
+  // The designated point relative to the centre of the tracked part, in units of that part's width
+  // and height.
   const Eigen::Vector2d& place() const { return place_; }
   Eigen::Vector2d point(const Particle& followed) const {
     return followed.pixel + place_.cwiseProduct(followed.size_px);
@@ -21,13 +22,14 @@ class Designation {
     return box_of(point(followed), scale_.cwiseProduct(followed.size_px));
   }
 
-  // Call it while nothing is conspicuous in the designated box (a bird with its wings edgewise, a
-  // drone behind a twig). Returns the part of the box that has now become conspicuous; nullopt if
-  // there is none yet.
+  // Call it for each frame while nothing is conspicuous in the designated box (a bird with its
+  // wings edgewise, a drone behind a twig). Searches the box and its surroundings, and returns the
+  // part that has become conspicuous. Returns nullopt if there is none, or if two seconds have
+  // passed.
   std::optional<cv::Rect2d> find_late(const cv::Mat& gray, const MotionModel& motion);
 
  private:
-  // Both in sizes of the tracked part.
+  // Both in units of the tracked part's width and height.
   Eigen::Vector2d place_;
   Eigen::Vector2d scale_;
   cv::Rect2d box_;  // in pixels of the present frame; used while nothing in it is conspicuous

@@ -1,6 +1,6 @@
-// Finds the largest changes between adjacent frames. This is the paper's answer to a sky without
-// features, for which no homography is found. If there is a homography, the previous frame is
-// aligned first. The differences then show a target that does not move as predicted.
+// Finds the largest changes between adjacent frames. The paper uses frame differences in front of a
+// sky without features, where no homography is found. If there is a homography, the previous frame
+// is aligned first, so that the background does not change.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +11,10 @@
 
 namespace ols::tracker {
 
-// Returns up to `most` maxima of the frame difference inside `area`, smoothed over the target's
-// size, strongest first, at least one target apart. `homography` maps the previous frame's pixels
-// to those of this frame. All positions are in full-frame pixels.
+// Returns up to `most` maxima of the frame difference inside `area`, strongest first. The
+// difference is smoothed over the target's size, `size_px`, and the maxima are at least that far
+// apart. `homography` maps the previous frame's pixels to those of this frame. All positions are in
+// full-frame pixels.
 std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
                                                    const ReducedFrame& current,
                                                    const std::optional<Eigen::Matrix3d>& homography,

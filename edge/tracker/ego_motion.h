@@ -30,7 +30,7 @@ struct CornerMatches {
 
 enum class HomographyFit {
   kRansac,        // RANSAC's result alone
-  kLeastSquares,  // least squares over the corners that agree with one homography
+  kLeastSquares,  // least squares over all corners that agree with one homography
 };
 
 class EgoMotionEstimator {
@@ -44,9 +44,10 @@ class EgoMotionEstimator {
 
   // Takes the first frame, for which there is no motion.
   void start(const ReducedFrame& frame);
-  // `predicted`: start of the flow search, and prior of the estimate if the corners do not
-  // determine it. Corners inside `target_box` (of the previous frame) are not taken as parts of the
-  // scene.
+  // `predicted`: maps the previous frame's full-frame pixels to this frame's. The search for the
+  // corners starts there, and the estimate stays near it where the corners do not determine it.
+  // Corners in or near `target_box` (of the previous frame) are ignored, because they may move with
+  // the target.
   Estimate step(const ReducedFrame& frame, const cv::Rect2d& target_box,
                 const std::optional<Eigen::Matrix3d>& predicted);
 
@@ -67,14 +68,14 @@ class EgoMotionEstimator {
   ImagePyramid previous_pyramid_;
   ImagePyramid pyramid_;
   std::vector<cv::Point2f> corners_;                    // in the previous frame, reduced pixels
-  std::size_t detected_ = 0;                            // number of corners when they were detected
+  std::size_t detected_ = 0;                            // number of corners at their detection
   int followed_ = 0;                                    // number of frames since then
   Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // last homography, in reduced pixels
   int corner_threshold_ = 15;                           // threshold of FAST [grey levels]
 };
 
 // Whether a homography can be a small camera rotation: finite, no mirror image, little change of
-// scale, most of the image remains visible.
+// scale, and a large part of the image still visible.
 bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& image);
 
 // Whether an accumulated homography can be inverted: finite, not nearly singular.

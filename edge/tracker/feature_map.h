@@ -16,29 +16,30 @@ struct FeatureWindow {
   double cell_px = 1.0;                             // side of a cell
 };
 
-inline constexpr int kCellSide = 4;    // [px] of the resampled grey image
-inline constexpr int kColourSide = 2;  // the same in colour
+inline constexpr int kCellSide = 4;    // [px] side of a cell in the resampled grey image
+inline constexpr int kColourSide = 2;  // [px] side of a cell in the resampled colour image
 
-// A window of a frame, resampled, with a border of one pixel. Outside the image, its border is
-// continued.
+// A window of a frame, resampled, with a border of one pixel. Outside the frame, the frame's
+// outermost pixels are repeated.
 struct WindowView {
   FeatureWindow window;
-  cv::Mat gray;  // 8-bit, kCellSide pixels a cell
-  cv::Mat bgr;   // 8-bit blue, green, red, kColourSide pixels a cell; empty without a colour image
+  cv::Mat gray;  // 8-bit; a cell is kCellSide pixels wide and high
+  cv::Mat bgr;   // 8-bit blue, green, red, kColourSide pixels per cell side; empty without colour
 };
 
 WindowView view_window(const TrackerInput& frame, const FeatureWindow& window);
 
 // The features of each cell: histograms of 12 signed and 6 unsigned orientations, relative to the
 // gradients of the neighbouring cells (P. F. Felzenszwalb et al., "Object detection with
-// discriminatively trained part-based models", PAMI 32(9), 2010); these gradients; the grey level;
-// red against green; yellow against blue. All values are small, and tapered towards the window's
-// edge. Colours are zero if there is no colour image.
+// discriminatively trained part-based models", PAMI 32(9), 2010); the sum of this normalised
+// histogram; the grey level; red minus green; yellow minus blue. All values are small, and fall to
+// zero towards the window's edge. Colours are zero if there is no colour image.
 FeatureMap extract_features(const WindowView& view);
 
 inline constexpr int kShapeChannels = 6;  // the unsigned orientations
-// Adds only the unsigned orientations, cell by cell: kShapeChannels for each of side x side cells.
-// The 8-bit image must have a border of one additional pixel.
+// Writes only the unsigned orientations to `features`: kShapeChannels values for each of side x
+// side cells, row by row. `sampled`: 8-bit, side * kCellSide pixels wide and high, plus a border of
+// one pixel.
 void add_shape(const cv::Mat& sampled, int side, float* features);
 
 }  // namespace ols::tracker

@@ -1,4 +1,4 @@
-// Judges whether the object that is followed by its learnt appearance is still the target. The
+// Judges whether the object that the tracker follows by learnt appearance is still the target. The
 // filter's response alone cannot decide this, because a filter that has learnt the wrong object
 // finds that object.
 #pragma once
@@ -10,7 +10,7 @@ namespace ols::tracker {
 // The evidence in one frame in which an object is followed.
 struct FollowEvidence {
   // Response at the target, relative to the deviation of the response elsewhere in the window. If
-  // the filter has drifted onto the background, it responds everywhere.
+  // the filter has drifted onto the background, it responds everywhere, and this value is low.
   double prominence = 0.0;
   // Result of background_change(); nullopt if there is no image of the background at that place.
   std::optional<double> change = {};
@@ -18,8 +18,8 @@ struct FollowEvidence {
   double colours = 0.0, separability = 0.0;
 };
 
-// The natural logarithm of the odds that the object is the target, without its colours. `own`: the
-// target's prominence when it was designated.
+// The natural logarithm of the odds that the object is the target, from all evidence except
+// colours. `own`: the target's prominence during the first half second after the designation.
 double follow_log_odds(const FollowEvidence& evidence, double own);
 // What the colours add to these log-odds.
 double colour_log_odds(const FollowEvidence& evidence);
@@ -29,16 +29,16 @@ class FollowJudge {
  public:
   void start() { *this = {}; }
   void update(const FollowEvidence& evidence, double interval_s);
-  // Call when the object was dropped: the time in doubt restarts at zero for the next object.
+  // Call when the target is searched for because of long doubt: the time in doubt then counts from
+  // zero again.
   void start_search() { doubted_s_ = 0.0; }
-  // The logarithm of the odds that an object found elsewhere is the target, from this evidence
-  // alone.
+  // The natural logarithm of the odds that an object found elsewhere is the target. Colours and
+  // earlier frames are not used.
   double log_odds_elsewhere(const FollowEvidence& evidence) const;
-  // The probability from the response and the background. It decides what the tracker does. It
-  // leaves the colours out, because a target whose colours change in a shadow must be neither
-  // dropped nor searched for.
+  // The probability from response and background, without colours. The tracker acts on this value:
+  // it must not drop a target, or search for it, merely because its colours change in a shadow.
   double value() const { return value_; }
-  // The same with the colours, for the published belief.
+  // The probability from response, background and colours, for the published belief.
   double belief() const { return belief_; }
   bool sure() const;
   bool believes() const;
@@ -54,8 +54,8 @@ class FollowJudge {
 
   double value_ = 1.0, belief_ = 1.0;
   bool wary_ = false;
-  double doubted_s_ = 0.0;  // time in doubt without interruption
-  double named_s_ = 0.0;    // time since the designation, up to the limit that is used
+  double doubted_s_ = 0.0;  // duration of the present doubt
+  double named_s_ = 0.0;    // time since the designation, counted up to half a second
   double log_own_ = 0.0;    // mean logarithm of the prominence over that time
 };
 

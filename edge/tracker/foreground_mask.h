@@ -17,9 +17,9 @@ class ReferenceFrames {
   explicit ReferenceFrames(double interval_s) : interval_s_(interval_s) {}
 
   void clear() { references_.clear(); }
-  // Notes the camera's motion: `homography` maps the previous frame's pixels to this frame's.
+  // Takes the camera's motion: `homography` maps the previous frame's pixels to this frame's.
   void advance(const Eigen::Matrix3d& homography);
-  // Keeps a copy of this frame if the newest copy is old enough.
+  // Stores a copy of this frame if the newest stored one is at least `interval_s` older.
   void offer(const cv::Mat& gray, double time_s, const cv::Rect2d& target_box);
 
   // An earlier frame.
@@ -31,6 +31,8 @@ class ReferenceFrames {
   };
   // The newest frame that is not newer than time_s; null if there is none.
   const Reference* older_than(double time_s) const;
+  // The newest frame that shows the background behind this box of the present frame: the target was
+  // elsewhere in it. Null if there is none.
   const Reference* without_overlap(const cv::Rect2d& target_box) const;
 
  private:
@@ -38,13 +40,15 @@ class ReferenceFrames {
   std::deque<Reference> references_;
 };
 
-// Used if no earlier image shows the background alone: |frame - `level`|, where `level` is the grey
-// level around the target. Against a plain sky the result is the same.
+// Computes |frame - `level`|, where `level` is the grey level around the target. It is used if no
+// earlier image shows the background alone. In front of a plain sky, both functions give the same
+// mask.
 FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
                           const Template& target);
 
-// Computes |frame - reference| inside `area` of the frame; values of 0..255 mean a foreground of
-// 0..1. A difference of `noise` grey levels counts as 0, and half of `contrast` as 1.
+// Computes |frame - reference| inside `area` of the frame, scaled so that 0..255 mean a foreground
+// of 0..1. A difference of twice Template::noise counts as 0, and of half of Template::contrast as
+// 1.
 FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
                           const cv::Rect& area, const Template& target);
 

@@ -16,28 +16,28 @@ class LearntAppearance {
                    const Eigen::Vector2d& size_px);
 
   // Searches for the target in windows around these places of a new frame. Returns the position of
-  // the strongest response, if it is at least `least` of the usual response.
+  // the strongest response, if this response is at least `least` times the usual one.
   std::optional<Eigen::Vector2d> find(const TrackerInput& frame,
                                       const std::vector<Eigen::Vector2d>& places,
                                       const Eigen::Vector2d& size_px, double least);
-  // Also searches around this place, unless it is well inside a searched window. (A window fades
-  // towards its edge.)
+  // Also searches around this place, unless it is near the centre of a window that has been
+  // searched. (Responses fade towards a window's edge.)
   void look_at(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                const Eigen::Vector2d& size_px);
   // The response of filter and colours at a pixel of the newest frame, relative to the usual one; 0
   // where no search took place.
   double recognised(const Eigen::Vector2d& pixel) const;
-  // The filter's response at that pixel, relative to the deviation of its response elsewhere; 0
-  // where no search took place.
+  // The filter's response at a pixel of the newest frame, relative to the deviation of its response
+  // elsewhere; 0 where no search took place.
   double prominence(const Eigen::Vector2d& pixel) const;
-  // How much the colours at that pixel resemble those that the target had at first: 0 like the rest
-  // of the window, 1 like the target at first. 0 where no search took place.
+  // How much the colours at a pixel of the newest frame resemble the target's first colours: 0 like
+  // the rest of the window, 1 like the target at first. 0 where no search took place.
   double first_colours(const Eigen::Vector2d& pixel) const;
   // ColourLikeness::separability() of the target's first colours; 0 where no search in a colour
   // image took place.
   double first_separability(const Eigen::Vector2d& pixel) const;
-  // Learns that the target is at `pixel` of the newest frame. The less the colours there are the
-  // target's, the less is learnt.
+  // Learns that the target is at `pixel` of the newest frame. If the colours there are unlike the
+  // target's, less is learnt.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
              const Eigen::Vector2d& size_px, double interval_s);
 
@@ -59,7 +59,7 @@ class LearntAppearance {
   CorrelationFilter filter_;
   ColourLikeness colours_;
   ColourLikeness first_colours_;
-  double first_s_ = 0.0;            // time over which they were learnt
+  double first_s_ = 0.0;            // time over which first_colours_ have been learnt
   std::vector<Searched> searched_;  // in the newest frame
   double usual_;                    // the filter's usual response at the target
 };

@@ -1,5 +1,5 @@
-// Measures the contrast of a place with its surroundings. This contrast remains even if a target
-// changes its shape with each wing beat.
+// Measures the contrast of a place with its surroundings. A target keeps this contrast even if it
+// changes its shape, like a bird with each wing beat.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,14 +15,14 @@ class LocalContrast {
   // Uses the view's pixels within `area` of the full frame.
   LocalContrast(const FrameView& view, const cv::Rect& area);
 
-  // [grey levels] Mean of the box's centre minus the mean of a frame around the box; 0 outside the
-  // area. Arguments are in full-frame pixels.
+  // [grey levels] Mean over the middle of the box minus the mean over a band around the box; 0
+  // outside the area. Arguments are in full-frame pixels.
   double operator()(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) const;
 
  private:
   double sum(const cv::Rect& area) const;
 
-  cv::Mat sums_;  // integral image of that part of the view
+  cv::Mat sums_;  // integral image of the part of the view that is used
   cv::Point corner_;
   FrameView view_;
 };

@@ -7,7 +7,8 @@
 
 namespace ols::tracker {
 
-// For an even number, it is the upper one of the two middle values. `values` must not be empty.
+// If the number of values is even, returns the greater one of the two middle values. `values` must
+// not be empty.
 template <typename Number>
 Number median(std::vector<Number> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

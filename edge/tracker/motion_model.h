@@ -17,24 +17,26 @@ struct CameraMotion {
   double interval_s = 0.0;
 };
 
-// The interval between two frames, limited to a usable range. After a longer gap the target may be
-// anywhere; two exposures are never closer than the lower limit.
+// The interval between two frames, limited to 0.1 ms .. 1 s. Two exposures are never closer than
+// that, and after a longer gap the target may be anywhere.
 double usable_interval_s(double from_s, double to_s);
 
-// Limits the particle's position to within a frame's size of the frame, its velocity to ten frame
-// widths a second, and its size to that of the frame. Pixel values therefore cannot overflow,
-// whatever the clock, the homography or a hint says.
+// Limits the particle's position to one frame size outside the frame, its velocity to ten frame
+// widths a second, and its size to 3 px .. the frame's size. Pixel values therefore cannot
+// overflow, whatever the clock, the homography or a hint says.
 Particle bounded(const Particle& particle, const cv::Size& frame);
 
-// The particles' velocities are relative to the scene. Without a homography the camera is assumed
-// to keep turning. When the homography is known again, the difference is added to the velocities,
-// so that the particles move continuously in the image.
+// Applies the motion model to particles, whose velocities are relative to the scene. Without a
+// homography, the camera is assumed to keep turning at its last known rate. When the homography is
+// known again, the error of this assumption is added to the velocities, so that the particles move
+// continuously in the image.
 class MotionModel {
  public:
   explicit MotionModel(const TrackerConfig& config) : config_(config) {}
 
-  // Takes the camera's motion into account at `pixel` (of the previous frame), for the functions
-  // below. Returns the change of the velocities relative to the scene [px/s].
+  // Starts a frame: the functions below use this motion of the camera, with its rate at `pixel` of
+  // the previous frame. Returns what the caller must add to all velocities relative to the scene
+  // [px/s]; see the class.
   Eigen::Vector2d begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel);
 
   // The particle's prediction without noise.
@@ -44,7 +46,8 @@ class MotionModel {
 
   const std::optional<Eigen::Matrix3d>& homography() const { return motion_.homography; }
   double interval_s() const { return motion_.interval_s; }
-  // The present pixel of the part of the scene that was at this pixel of the previous frame.
+  // The point of the scene at this pixel of the previous frame is at the returned pixel of this
+  // one.
   Eigen::Vector2d still(const Eigen::Vector2d& pixel) const;
   // The velocity, relative to the scene, of an object that is stationary in the image.
   Eigen::Vector2d image_fixed_velocity() const { return -camera_rate_px_s_; }

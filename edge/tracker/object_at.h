@@ -1,5 +1,5 @@
-// Finds the object at which a person points: the compact object at this pixel that contrasts with
-// its surroundings. Pure.
+// Finds the object at which a person points: a compact object, at or near a pixel, that contrasts
+// with its surroundings. Without state.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,8 @@
 
 namespace ols::tracker {
 
-// Returns its box in the image; nullopt if nothing there contrasts, or if the object is larger than
-// 90 px. If there are several, it is the one nearest to the pixel, at most 24 px away.
+// Returns the box of the nearest object within 24 px of `pixel`; nullopt if there is none. Objects
+// larger than 90 px are ignored. `gray`: 8-bit, one channel.
 std::optional<cv::Rect2d> object_at(const cv::Mat& gray, const Eigen::Vector2d& pixel);
 
 }  // namespace ols::tracker

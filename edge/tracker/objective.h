@@ -23,15 +23,15 @@ const std::array<Number, 256>& exponentials() {
 
 struct Similarity {
   double similarity = 0.0;   // eq. (5), 0..1
-  double correlation = 0.0;  // between the grey values and the first or the learnt image, -1..1
-  double contrast = 0.0;     // deviation of the grey values, relative to that of the template
+  double correlation = 0.0;  // with the first or with the learnt image, whichever is greater; -1..1
+  double contrast = 0.0;     // standard deviation of the grey values, relative to the template's
 };
 
-// Eq. (5) divided by its maximum for this template, so that it is 0..1. The intensities of each
-// patch are taken relative to their mean, in units of their deviation. A faint target is therefore
-// distinguished from the sky as well as a strong one, and exposure and gradients of the sky do not
-// matter. The unit has a lower limit, derived from the template, so that noise is not amplified
-// into a target. An empty mask counts as zero everywhere.
+// Eq. (5) divided by its maximum for this template, so that it is 0..1. Each patch is normalised:
+// its mean is subtracted, and the result is divided by its standard deviation. Therefore, faint
+// targets are distinguished from the sky as reliably as strong ones, and neither the exposure nor
+// the sky's gradients matter. The divisor has a lower limit, derived from the template, so that
+// noise is not amplified into a target. An empty mask counts as zero everywhere.
 class Objective {
  public:
   explicit Objective(const Template& target);
@@ -44,7 +44,7 @@ class Objective {
   Similarity operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
 
  private:
-  // Factor for the similarity of an inverted patch. A warm target in front of a warming sky does
+  // Factor for the correlation of an inverted patch. A warm target in front of a warming sky does
   // change from bright to dark, but rarely.
   static constexpr float kInverted = 0.9F;
   static constexpr Patch ones() {
@@ -52,12 +52,12 @@ class Objective {
     for (float& value : patch) value = 1.0F;
     return patch;
   }
-  // Number of deviations that give a difference of 1 in eq. (5)
+  // A difference of this number of standard deviations counts as 1 in eq. (5).
   static constexpr float kUnit = 2.0F;
 
   Patch template_{};        // normalised
-  Patch learnt_{};          // normalised; its recent appearance
-  float deviation_ = 1.0F;  // deviation of the template [grey levels]
+  Patch learnt_{};          // normalised; the recent appearance
+  float deviation_ = 1.0F;  // [grey levels] standard deviation of the template
   float least_deviation_ = 1.0F;
   Patch exponential_ = ones();  // exp(M_t)
   double greatest_ = kPatchArea;

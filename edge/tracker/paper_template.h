@@ -13,7 +13,7 @@ namespace ols::tracker {
 double paper_objective(const Patch& template_gray, const MaskPatch& template_mask,
                        const Patch& candidate_gray, const MaskPatch& candidate_mask);
 
-// The whole frame as a view: the paper's patches are sampled from the image itself.
+// The whole frame as a view: the paper samples its patches from the frame at full resolution.
 inline FrameView whole(const cv::Mat& gray) { return {gray, {0, 0}, 1}; }
 
 class PaperTemplate {
@@ -34,8 +34,8 @@ class PaperTemplate {
   double greatest_objective() const;
 
  private:
-  // The template's frame or, if its alignment was lost, the first one after that; used until the
-  // mask is made.
+  // The frame of the template or, if its alignment was lost, the first frame after the loss. It is
+  // used until the mask is made.
   ReferenceFrames::Reference first_;
   Template appearance_;
   std::optional<MaskPatch> mask_;  // M_t

@@ -1,4 +1,5 @@
-// The paper's section 5 alone: mode = "paper". Some comments quote the paper.
+// The tracker of the paper's section 5, without our additions (mode = "paper"). Some comments quote
+// the paper.
 #pragma once
 
 #include <optional>
@@ -38,7 +39,7 @@ class PaperTracker {
   ParticleFilter filter_;
   double greatest_objective_ = 0.0;  // value of eq. (5) for the best particle
   Particle last_;
-  bool placed_ = false;  // the particles are already advanced to the coming frame
+  bool placed_ = false;  // search_near() has already placed the particles for the coming frame
 };
 
 }  // namespace ols::tracker

@@ -9,14 +9,14 @@
 namespace ols::tracker {
 
 struct Particle {
-  // Centre of the box; (0, 0) is the centre of a pixel.
+  // Centre of the box; (0, 0) is the centre of the top-left pixel.
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   // Relative to the scene, not to the image.
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();
   Eigen::Vector2d size_px = Eigen::Vector2d::Zero();  // width, height
 };
 
-// The corners of a box are on pixel edges, the state's positions on pixel centres.
+// In a cv::Rect2d, whole numbers are pixel edges; in a Particle, whole numbers are pixel centres.
 inline cv::Rect2d box_of(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
   return {pixel.x() + 0.5 - size_px.x() / 2.0, pixel.y() + 0.5 - size_px.y() / 2.0, size_px.x(),
           size_px.y()};

@@ -15,19 +15,18 @@ class ParticleFilter {
 
   // Moves every particle to this frame, without noise.
   void advance(const MotionModel& motion);
-  // Adds the motion model's noise to particles that are already at this frame. Remembers their
-  // predictions without noise.
+  // Adds the motion model's noise to particles that are already advanced to this frame. Stores mean
+  // and covariance of the prediction for maximum_a_posteriori().
   void disturb(const MotionModel& motion, Random& random);
-  // Restarts around a target that was found in another way; the next disturb() spreads the
-  // particles.
+  // Puts all particles on a target that was found by other means; the next disturb() spreads them.
   void restart(const Particle& target);
-  // Sets initial velocities: a new target either rests relative to the scene, or rests in the image
-  // because the camera followed it.
+  // Sets initial velocities. Half of the particles rest relative to the scene. The others rest in
+  // the image, for a target that the camera has followed.
   void guess_velocities(const MotionModel& motion, double sd_px_s, Random& random);
   // Gives some particles the target's usual size, because an approaching target grows faster than
   // the particles' noise allows.
   void propose_size(const Eigen::Vector2d& present_px, const Eigen::Vector2d& usual_px);
-  // Adds this standard deviation to the prediction's uncertainty, beyond that of its particles.
+  // Adds this standard deviation, in quadrature, to the uncertainty of the predicted position.
   void widen_prediction(double sd_px) {
     predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();
   }
@@ -49,8 +48,9 @@ class ParticleFilter {
   void set_weights(std::vector<double> weights) { weights_ = std::move(weights); }
   const std::vector<double>& weights() const { return weights_; }
 
-  // Index of the maximum a posteriori: the maximum of the likelihood times the predicted density at
-  // the particle. The density distinguishes the target from a similar object elsewhere.
+  // Index of the maximum a posteriori: the particle with the greatest product of its likelihood and
+  // the predicted density at its position. The density distinguishes the target from a similar
+  // object elsewhere.
   std::size_t maximum_a_posteriori() const;
 
   Eigen::Vector2d mean_size_px() const;

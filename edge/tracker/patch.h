@@ -27,21 +27,23 @@ struct FrameView {
 
 // The reduction factor for a target of this size.
 int reduction_for(const Eigen::Vector2d& size_px);
-// The part of `frame` inside `area`; it shares the frame's memory if it is not reduced.
+// The part of `frame` inside `area`; with a reduction of 1, the whole frame, whose memory it
+// shares.
 FrameView make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
 
-// The part of the view inside `area` of the full frame, smoothed by one pixel of a patch for a
-// target of this size. Small changes of the target's shape, and half a pixel between particles,
-// then have little effect.
+// The part of the view inside `area` of the full frame, smoothed with a sigma of one pixel of a
+// patch, for a target of this size. Small changes of the target's shape, or an offset of half a
+// pixel, then have little effect.
 FrameView smoothed(const FrameView& view, const cv::Rect& area, const Eigen::Vector2d& size_px);
 
-// The interpolated grey value, in image coordinates; the border is continued outside.
+// The interpolated grey value, in image coordinates; outside the image, its outermost pixels are
+// repeated.
 float bilinear(const cv::Mat& image, double x, double y);
 
 // I in eq. (5): the box resampled to 24x24. The interpolation is bilinear.
 Patch sample_patch(const FrameView& view, const Eigen::Vector2d& pixel,
                    const Eigen::Vector2d& size_px);
-// The same box of a foreground mask. Takes the nearest neighbour; outside the mask there is no
+// A box of a foreground mask, resampled to 24x24 by nearest neighbour. Outside the mask there is no
 // foreground.
 MaskPatch sample_mask(const FrameView& mask, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px);
@@ -54,8 +56,8 @@ struct Template {
   bool empty = false;     // it contains only noise, so it resembles any patch of sky
 };
 
-// Standard deviation of the noise [grey levels], from the residuals of a plane in 3x3 pixels. The
-// median is used, so that edges do not count.
+// Standard deviation of the noise [grey levels], from a 3x3 filter that any plane leaves at zero.
+// The median over the image is used, so that edges do not count.
 double pixel_noise(const cv::Mat& image);
 
 // The median grey level around a box.

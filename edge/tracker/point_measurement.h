@@ -7,7 +7,7 @@
 
 namespace ols::tracker {
 
-// If the correlation is lower, the position is not measured.
+// Minimum correlation with the first image at which the position counts as measured.
 inline constexpr double kSamePattern = 0.5;
 
 struct MeasuredPoint {
@@ -18,17 +18,18 @@ struct MeasuredPoint {
 class PointMeasurement {
  public:
   // `placed`: the fit of a box with the filter's size. `place`: the point's position relative to
-  // the box's centre, in sizes of the box. Tracking uses the size on which the particles agree,
-  // because blurred images do not change that size. The output uses the size that this image shows.
+  // the box's centre, in units of the box's width and height. Tracking uses `filter_size_px`, which
+  // blurred images do not change. The output uses the size that this image shows.
   MeasuredPoint measure(const TargetModel& target, const Scene& scene,
                         const RefinedPosition& placed, const Eigen::Vector2d& filter_size_px,
                         const Eigen::Vector2d& place, double interval_s);
   // Call if the newest frame does not show the target.
   void miss() { size_px_.reset(); }
-  // Call for another target, or a new start.
+  // Call when another target is tracked, or when the search starts at a new place.
   void restart();
-  // The size in the newest frame, measured relative to the first image; nullopt if it was not
-  // measured. The output's box also follows the learnt appearance.
+  // The size in the newest frame, measured by comparison with the first image; nullopt if it was
+  // not measured. The box of TrackerOutput may have another size, because it also follows the
+  // learnt appearance.
   const std::optional<Eigen::Vector2d>& size_px() const { return size_px_; }
 
  private:

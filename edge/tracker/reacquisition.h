@@ -21,7 +21,7 @@ class Reacquisition {
     double sd_px = 0.0;
     double most_sd_px = 0.0;
     double since_s = 0.0;
-    bool told = false;  // set by start_near(); then the target may also be stationary there
+    bool told = false;  // set by start_near(): a stationary object is accepted, too
   };
 
   Reacquisition(const TrackerConfig& config, const Particle& target, double time_s)
@@ -31,17 +31,17 @@ class Reacquisition {
   const std::optional<Region>& region() const { return region_; }
   // The target when it was last believed, moved to the newest frame.
   const Particle& believed() const { return believed_; }
-  // Probability that the tracked object is the designated target, and not a similar one.
+  // Probability that the tracked object is the designated target rather than a similar object.
   double identity() const { return identity_; }
 
   // Starts to track this target, and forgets the previous one.
   void restart(const Particle& target);
   // Notes that the target was seen and believed.
   void see(const Particle& target) { believed_ = target; }
-  // For a target that was found elsewhere, so that its velocity is unknown: its particles start
-  // with the old velocity, or with none. Once the target has been measured in two successive
-  // frames, `target` gets the velocity between them. `unmoved_px`: where the target would be if it
-  // had not moved.
+  // Call it for each frame. `measured`: whether the target's position was measured in it. A target
+  // that is found again has an unknown velocity. When it has been measured in two successive
+  // frames, the velocity of `target` is set to its motion between them. `unmoved_px`: where the
+  // target would be if it had not moved.
   void learn_velocity(bool measured, const Eigen::Vector2d& unmoved_px, double interval_s,
                       Particle& target);
   // Ends the search, because the target is believed.
@@ -56,12 +56,12 @@ class Reacquisition {
   void change_velocity(const Eigen::Vector2d& change_px_s) {
     believed_.velocity_px_s += change_px_s;
   }
-  // Moves target and region to the newest frame, unless this was done already.
+  // Moves target and region to the newest frame, unless they are `placed` there already.
   void predict(const MotionModel& motion, const SceneMotion& scene, bool placed);
   // Redraws a share of the particles all over the region.
   void scatter(std::vector<Particle>& particles, Random& random) const;
-  // Detects movers, first near the expected position, then anywhere. force_onto_movers() puts a
-  // share of the particles there.
+  // Detects movers: for one second near the expected position, then anywhere. force_onto_movers()
+  // then puts a share of the particles on them.
   void look_for_movers(const SceneMotion& scene, const Eigen::Vector2d& size_px);
   void force_onto_movers(std::vector<Particle>& particles, Random& random) const;
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px, Random& random) const;
@@ -70,8 +70,9 @@ class Reacquisition {
   // prediction is not accepted, even if it looks similar, because it is probably a twig, a window
   // or a reticle.
   bool may_be_target(const Particle& particle) const;
-  // Divides the probability of identity among candidates. An object found elsewhere may be any of
-  // the similar movers, visible or hidden, and nothing distinguishes them.
+  // Computes identity(). An object that is found away from the prediction may be any of the similar
+  // movers, visible or hidden. Nothing distinguishes them; the probability is therefore divided
+  // among them.
   void identify(const Particle& found, const Scene& scene, const TargetModel& target,
                 const Belief& belief);
 

@@ -1,5 +1,5 @@
-// Learns the target's appearance, judges whether the followed object is still the target, and
-// returns to the target if it is not.
+// Learns the target's appearance, and judges whether the followed object is still the target. If it
+// is not, the tracker returns to the target.
 #pragma once
 
 #include "edge/tracker/follow_judge.h"
@@ -22,21 +22,23 @@ class Recognition {
   // If true, nothing is learnt, because the followed object may be another one.
   bool doubts() const { return judge_.wary(); }
 
-  // Call if a caller states where the target is: earlier doubts and memories then belong to another
-  // place.
+  // Call when search_near() has moved the tracker to another place: forgets doubts and stored
+  // states, which belong to the former place.
   void restart();
-  // Advances the memories to the next frame.
+  // Advances the stored states to the next frame.
   void advance(const MotionModel& motion, const cv::Size& frame) { sure_.advance(motion, frame); }
-  // Judges `followed` in this frame. The frame must be the one that was searched last.
+  // Judges `followed` in this frame. appearance() must have searched this frame last.
   void judge(const TrackerInput& frame, const ReferenceFrames& references, const Particle& followed,
              double interval_s);
   // Stores the followed object if it is surely the target.
   void remember(const Particle& followed, double time_s);
-  // In doubt, returns to the appearance that was learnt while the object was surely the target.
-  // With that appearance, the target must be found at one of three places: here, where it was then,
-  // or where it would be if it had continued. After long doubt, a weaker response is enough. The
-  // search also continues in ever wider rings, where a candidate must itself be judged to be the
-  // target.
+  // If in doubt, searches for the target with the appearance that was stored while the followed
+  // object was surely the target. It searches at three places: at the followed object, at the
+  // target's place in the scene when the appearance was stored, and where the target would be if it
+  // had kept its velocity. After long doubt, a weaker response is enough there. If nothing is
+  // found, it searches in ever wider rings. There a candidate must also pass
+  // FollowJudge::log_odds_elsewhere(). Returns the target's state, and uses the stored appearance
+  // from then on; nullopt if nothing is found.
   std::optional<Particle> return_to_sure(const TrackerInput& frame,
                                          const ReferenceFrames& references,
                                          const Particle& followed);

@@ -10,18 +10,19 @@
 namespace ols::tracker {
 
 struct RefinedPosition {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // centre of the box that fits the first image
+  // Centre of the box that matches the first image.
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Vector2d size_px = Eigen::Vector2d::Ones();
-  // Covariance of centre and size [px] that image noise causes.
+  // Covariance of (centre, size), as far as image noise causes it.
   Eigen::Matrix4d covariance_px2 = Eigen::Matrix4d::Identity();
   double correlation = 0.0;  // -1..1
-  // Factor by which correlated residuals of neighbouring pixels raise the uncertainty above that of
-  // independent noise. Causes are a background that moves differently, the lens, or a changed
-  // appearance.
+  // The residuals of neighbouring pixels may be correlated: the background moves differently, the
+  // lens distorts, or the appearance has changed. This factor states how much greater the centre's
+  // variance is than with independent noise.
   double shared_noise = 1.0;
 
   // The position of a point of the target. `place`: the point relative to the box's centre, in
-  // sizes of the box.
+  // units of the box's width and height.
   Eigen::Vector2d point(const Eigen::Vector2d& place) const {
     return centre + place.cwiseProduct(size_px);
   }
@@ -34,18 +35,19 @@ struct RefinedPosition {
 
 class PositionRefiner {
  public:
-  // Keeps the target's image on the pixel grid of the sampled view, with a margin around the box.
+  // Stores the target's image: the pixels of `view` in the box and in a margin around it.
   PositionRefiner(const FrameView& view, const Eigen::Vector2d& pixel,
                   const Eigen::Vector2d& size_px);
 
-  // Sets M_t. Pixels that are not foreground move differently, so they get little weight from now
-  // on.
+  // Sets M_t. From now on, pixels that are not foreground have little weight, because they move
+  // differently.
   void set_mask(const MaskPatch& mask);
 
-  // `start`: the centre of a box, wrong by at most about a third of the target's size. nullopt if
-  // the fit does not converge, if the target has too little structure, or if half of the target is
-  // outside the image. The size is kept at `size_px`. If a likely size is given, the size is
-  // estimated too, starting from it.
+  // Fits the stored image to `view`. `start`: the approximate centre; its error may be up to about
+  // a third of the target's size. Without `likely_size_px`, the size stays at `size_px`. With it,
+  // the size is estimated too, starting from `likely_size_px`. Returns nullopt if the fit does not
+  // converge, if the target has too little structure, or if half of the target is outside the
+  // image.
   std::optional<RefinedPosition> refine(
       const FrameView& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
       const std::optional<Eigen::Vector2d>& likely_size_px = std::nullopt) const;
@@ -58,14 +60,14 @@ class PositionRefiner {
     double weight;
     int block;  // number of the block of neighbours; samples are sorted by block
   };
-  // Shifts along u and v, growths along u and v, gain, offset.
+  // In this order: shifts along u and v, growths along u and v, gain, offset.
   using Parameters = Eigen::Matrix<double, 6, 1>;
   using Matrix = Eigen::Matrix<double, 6, 6>;
   struct Normal;
   struct State {
     Eigen::Vector2d anchor;  // position of the anchor [px]
     Eigen::Vector2d size_px;
-    double gain = 1.0;    // grey levels of this image over those of the first
+    double gain = 1.0;    // contrast of this image divided by that of the first
     double offset = 0.0;  // [grey levels]
 
     void step_back(const Parameters& change);
@@ -84,7 +86,8 @@ class PositionRefiner {
 
   std::vector<Sample> samples_;
   double all_weight_ = 0.0;
-  // The centre, in sizes of the box, of the samples that determine the position.
+  // The weighted mean position of the samples, in units of the box's width and height. The weights
+  // are the samples' contributions to the measured position.
   Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();
 };
 

@@ -18,14 +18,15 @@ class ScaleFilter {
   using Samples = Eigen::MatrixXf;   // one feature per row, one size per column
   using Spectra = Eigen::MatrixXcf;  // one feature per row, one frequency per column
 
-  // The spectra of the box at the neighbouring sizes. nullopt if there are too few pixels to show a
-  // size, or if the border of the box has hardly any structure.
+  // The spectra of the box at the neighbouring sizes. nullopt if the box has too few pixels to show
+  // its size, or if there is hardly any structure along its border.
   static std::optional<Spectra> look_at(const cv::Mat& gray, const Eigen::Vector2d& pixel,
                                         const Eigen::Vector2d& size_px);
-  // The natural logarithm of the target's size over the size of the box in `seen`; 0 before
-  // anything is learnt.
+  // The natural logarithm of the ratio of the target's size to the size of the box in `seen`; 0
+  // before anything is learnt.
   double growth(const Spectra& seen) const;
-  // Learns the target in `seen`, whose size differs from that of the box by this growth.
+  // Learns from `seen`, in which the target's size differs from the box's by this growth (a natural
+  // logarithm, as above).
   void learn(const Spectra& seen, double growth, double interval_s);
   bool empty() const { return energy_.size() == 0; }
 

@@ -1,4 +1,5 @@
-// Fourier transforms of small square real maps (two at a time), and their correlation.
+// Fourier transforms of small, square, real maps, two at a time, and the correlation of two
+// spectra.
 #pragma once
 
 #include <array>
@@ -7,10 +8,11 @@ namespace ols::tracker {
 
 inline constexpr int kMapSide = 32;
 inline constexpr int kMapArea = kMapSide * kMapSide;
-inline constexpr int kHalf = kMapSide / 2 + 1;  // a real map's spectrum is symmetric
+// Half of the columns are enough, because a real map's spectrum is symmetric.
+inline constexpr int kHalf = kMapSide / 2 + 1;
 inline constexpr int kSpectrumSize = kMapSide * kHalf;
 
-using Map = std::array<float, kMapArea>;  // row by row, as in a spectrum
+using Map = std::array<float, kMapArea>;  // row by row, like a spectrum
 
 // Real and imaginary parts are stored separately, so that the compiler can vectorise sums over
 // them.

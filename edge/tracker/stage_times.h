@@ -1,5 +1,5 @@
-// Measures the tracker's processing time by stage. The tracker is pure and reads no clock itself; a
-// caller may provide one.
+// Measures the tracker's processing time by stage. The tracker itself reads no clock; a caller may
+// provide one.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Stores the target's state when it was last followed with certainty. The tracker returns to this
-// state when it notices that it follows another object, whose appearance it has meanwhile learnt.
+// state when it notices that it follows another object and has learnt that object's appearance.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,15 @@ class SureMemory {
     // Where the target would be in the newest frame if it had continued, and if it had stopped
     // relative to the scene.
     Particle moving, still;
-    // Its position in the image at that time. A camera that follows its target keeps it there.
+    // The target's position in the image at that time. A camera that follows its target keeps it at
+    // this position.
     Eigen::Vector2d seen_px;
     double time_s = 0.0;
   };
 
   void clear() { newer_.reset(), older_.reset(); }
-  // Takes a state; one is stored every half second. The newest stored state is not trusted, because
-  // doubt comes later than the mistake.
+  // Offers a state; one is stored every half second. recall() returns the last but one, if there
+  // are two, because the tracker notices a mistake only some time after it.
   void offer(const LearntAppearance& appearance, const Particle& target, double time_s);
   // Advances the stored states to the next frame.
   void advance(const MotionModel& motion, const cv::Size& frame);

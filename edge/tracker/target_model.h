@@ -1,4 +1,4 @@
-// The target's appearance, and the evaluation of particles with it.
+// Models the target's appearance, and evaluates particles with it.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,8 @@ struct Scene {
   FrameView view;    // reduced according to the target's size
   FrameView smooth;  // candidates are sampled from this one
   FrameView mask;    // the foreground
-  // The mask comes from an earlier image, not from the grey level of the surroundings.
+  // The mask was made by comparison with an earlier image. Otherwise, it was made by comparison
+  // with the grey level of the surroundings.
   bool mask_by_subtraction = false;
   double background_similarity = 0.0;  // TargetModel::background_similarity() of this frame
   LocalContrast contrast;
@@ -31,7 +32,7 @@ class TargetModel {
  public:
   TargetModel(const TrackerConfig& config, const cv::Mat& gray, const cv::Rect2d& box);
 
-  // `particles`: the places that will be evaluated. `expected`: the place where the target is
+  // `particles`: the places that will be evaluated. `expected`: the box in which the target is
   // expected.
   Scene make_scene(const cv::Mat& gray, const std::vector<Particle>& particles,
                    const cv::Rect2d& expected, const ReferenceFrames& references) const;
@@ -61,23 +62,25 @@ class TargetModel {
   // Learns the target's present size, from a sharp image.
   void learn_size(const Eigen::Vector2d& size_px, double share);
 
-  // The size of the visible target. If the first image gives a `measured` size, it is the size of
-  // `target`; otherwise it is the last size, grown as the present appearance has grown.
+  // Returns the size of a visible target, and learns how its size shows in the image. If the size
+  // was `measured` by comparison with the first image, the size of `target` is returned. Otherwise,
+  // the usual size is corrected by the growth of the present appearance (ScaleFilter).
   Eigen::Vector2d follow_size(const cv::Mat& gray, const Particle& target,
                               const std::optional<Eigen::Vector2d>& measured, double interval_s);
-  // Call if another object has been followed since the target had this size.
+  // Call when the tracker returns to the target after it has followed another object. `size_px`:
+  // the target's size before that.
   void restart_size(const Eigen::Vector2d& size_px);
 
-  // Learns M_t once: the candidate's foreground, while the candidate is certainly the target.
+  // Learns M_t, once: the foreground of a candidate that is certainly the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
-  // The best fit of a box of this size. The start may be wrong by about a third of the target's
-  // size.
+  // The best fit of a box of this size. The error of `start` may be up to about a third of the
+  // target's size.
   std::optional<RefinedPosition> place(const Scene& scene, const Eigen::Vector2d& start,
                                        const Eigen::Vector2d& size_px) const {
     return refiner_.refine(scene.view, start, size_px);
   }
-  // Refines that fit: sub-pixel position and size at full resolution.
+  // Refines `placed`, the result of place(): sub-pixel position and size at full resolution.
   std::optional<RefinedPosition> measure(const Scene& scene, const RefinedPosition& placed,
                                          const Eigen::Vector2d& likely_size_px) const;
   const Eigen::Vector2d& usual_size_px() const { return usual_size_px_; }
@@ -96,7 +99,7 @@ class TargetModel {
   Template template_;
   Objective objective_;
   PositionRefiner refiner_;
-  // For a target whose view is reduced: works in the original frame.
+  // Works in the original frame; exists only if the target's view is reduced.
   std::optional<PositionRefiner> fine_refiner_;
   MaskPatch mask_{};  // M_t
   bool mask_learnt_ = false;

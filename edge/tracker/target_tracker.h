@@ -1,6 +1,6 @@
-// The interface of a tracker, which measures the pixel of one target, frame by frame. It is
-// implemented by the visual tracker and by a substitute (the Monte Carlo simulation draws the pixel
-// instead of rendering an image).
+// The interface of a tracker, which measures the pixel of one target, frame by frame. The visual
+// tracker implements it, and so does the substitute in the Monte Carlo simulation, which draws the
+// pixel at random instead of rendering images.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,9 +15,9 @@ namespace ols::tracker {
 struct TrackerInput {
   cv::Mat gray;       // 8-bit, one channel, full resolution; neither modified nor kept by reference
   double time_s = 0;  // of the exposure, on any time scale; must increase from frame to frame
-  // Maps pixels of the previous frame to this one (for a static scene at infinity), computed from
-  // the PTU's angles. nullopt if unknown. An impossible homography (mirror image, zoom, most of the
-  // image gone) is not used: see `ego_motion` of the output.
+  // Maps pixels of the previous frame to this one, for a static scene at infinity. It is computed
+  // from the PTU's angles; nullopt if unknown. An impossible homography (mirror image, zoom, most
+  // of the image gone) is not used: see `prediction_dropped` of the output.
   std::optional<Eigen::Matrix3d> predicted_homography;
   // The same picture in colour, if there is one; it helps to recognise the target.
   ColourPicture colour = {};
@@ -35,21 +35,23 @@ struct TrackerOutput {
   EgoMotion ego_motion = EgoMotion::kNone;
   std::optional<ImageMotion> image_motion = {};  // from the previous frame; nullopt without texture
   // [px] Difference, at the target, between two predictions of the scene: the one by the predicted
-  // homography, and the one by the image's own motion. At most the image diagonal. nullopt if only
-  // one of the two exists. A large value means that angles or times are wrong. A prediction that
-  // was not used is also compared.
+  // homography, and the one by the image's own motion. At most the image diagonal. nullopt unless
+  // both exist. A large value means that angles or times are wrong. The predicted homography is
+  // compared even if it was not used.
   std::optional<double> prediction_error_px;
-  bool prediction_dropped = false;  // there was a predicted homography, but it is impossible
+  bool prediction_dropped = false;  // the predicted homography was impossible, and not used
 };
 
 enum class TrackerError {
   kNotInitialised,
   kEmptyFrame,
-  kFrameFormat,  // not 8-bit single-channel
+  kFrameFormat,  // not 8-bit single-channel, or the colour picture has another size or type
   kFrameSize,    // differs from that of the first frame
   kTime,         // not later than the previous frame, or not finite
   kHomography,   // the predicted homography is not finite
-  kBox,          // the initial box is outside the image, empty or not finite
+  // The box's centre is outside the image, a side is below 3 px or longer than the image's, or a
+  // value is not finite.
+  kBox,
 };
 const char* to_string(TrackerError error);
 
@@ -66,13 +68,14 @@ class TargetTracker {
   virtual std::optional<TrackerError> initialise(const TrackerInput& frame,
                                                  const cv::Rect2d& box) = 0;
   virtual TrackerResult track(const TrackerInput& frame) = 0;
-  // Tells the tracker that the target may be near this pixel of the next frame, because a station
-  // is slewed to its lost target. It is ignored if it is not finite, and limited to within a
-  // frame's size of the frame.
+  // Tells the tracker that its lost target may be near this pixel of the next frame, because the
+  // station has slewed to it. A pixel that is not finite is ignored. Others are limited to one
+  // frame size outside the frame. `sd_px`: 1-sigma of the pixel.
   virtual void search_near(const Eigen::Vector2d& pixel, double sd_px) = 0;
-  // Sets the target aside (replacing one set aside earlier); initialise() then starts another one.
+  // Sets the target aside, and forgets one that was set aside earlier; initialise() then starts
+  // another.
   virtual void set_aside() = 0;
-  // Continues with the target that was set aside; possible once.
+  // Continues with the target that was set aside; does nothing if there is none.
   virtual void take_back() = 0;
 };
 

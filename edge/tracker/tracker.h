@@ -25,14 +25,14 @@ class Tracker final : public TargetTracker {
   std::optional<TrackerError> initialise(const TrackerInput& frame, const cv::Rect2d& box) override;
   // Performs one step: ego-motion, prediction (2)-(4), weighting (5), MAP, resampling.
   TrackerResult track(const TrackerInput& frame) override;
-  // Moves the particles to the pixel; keeps the template.
+  // Moves the particles to the pixel, and keeps the template.
   void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
   void set_aside() override;
   void take_back() override;
 
   bool initialised() const { return followed_ != nullptr; }
 
-  // Without a clock, no times are measured. stage_times() returns those of the newest frame.
+  // Without a clock, no times are measured. stage_times() returns the times of the newest frame.
   void set_stage_clock(StageClock clock) { timer_.set_clock(std::move(clock)); }
   const StageTimes& stage_times() const { return timer_.times(); }
 

@@ -28,25 +28,28 @@ struct TrackerConfig {
   int particles = 300;
 
   // Motion model, eq. (2)-(4): standard deviations of its noise in full-frame pixels.
-  double position_sd_px = 1.0;         // per frame
-  double position_sd_fraction = 0.04;  // per frame, relative to the box's size; added to the above
-  double velocity_gain = 0.4;          // share of the position noise that is added to the velocity
-  double velocity_sd_px_s = 5.0;       // per frame; the velocity's own noise
-  double surprise_fraction = 0.2;      // share of the particles that get larger position noise,
-  double surprise_scale = 4.0;         // larger by this factor
-  double size_sd_fraction = 0.01;      // per frame, relative to the box's width and height
-  double size_prior_sd_fraction = 0.35;  // prior of the box's size, relative to its first size
+  double position_sd_px = 1.0;  // per frame
+  // Per frame, relative to the box's size; added to position_sd_px.
+  double position_sd_fraction = 0.04;
+  double velocity_gain = 0.4;      // share of the position noise that is added to the velocity
+  double velocity_sd_px_s = 5.0;   // per frame; the velocity's own noise
+  double surprise_fraction = 0.2;  // share of the particles whose position noise is larger
+  double surprise_scale = 4.0;     // by this factor
+  double size_sd_fraction = 0.01;  // per frame, relative to the box's width and height
+  double size_prior_sd_fraction = 0.35;  // prior of the box's size, relative to its usual size
   double initial_velocity_sd_px_s = 60.0;
 
   // Objective, eq. (5): a patch of background has exp(-sharpness) times the likelihood of the
   // template.
   double sharpness = 8.0;
-  // The same for a patch that is not correlated with the template. Eq. (5) sums over the whole box.
-  // If the target fills a tenth of it, nine tenths are sky that matches everywhere, and only the
-  // correlation distinguishes the two.
+  // Likewise, a patch that is not correlated with the template has exp(-correlation_sharpness)
+  // times its likelihood. Eq. (5) sums over the whole box: if the target fills a tenth of it, nine
+  // tenths are sky, which matches everywhere. Only the correlation then shows whether the target is
+  // there.
   double correlation_sharpness = 20.0;
 
-  // The same for a place that lacks the target's usual contrast.
+  // Likewise, a place without the target's usual contrast has exp(-contrast_sharpness) times its
+  // likelihood.
   double contrast_sharpness = 6.0;
   // Time constant with which the target's appearance is learnt.
   double learning_time_s = 0.5;
@@ -58,19 +61,20 @@ struct TrackerConfig {
   double ego_motion_least_inlier_fraction = 0.4;
   double unknown_motion_sd_px = 2.0;  // additional position noise without a homography
 
-  // Share of the particles that are moved to the maxima of the frame difference if there is no
-  // homography, or while the target's velocity is unknown. They are moved by at most
-  // leap_most_px_s.
+  // Share of the particles that are moved to the maxima of the frame difference. This is done
+  // without a homography, during a search, and while the target's velocity is unknown. With a
+  // homography, leap_most_px_s limits how far they are moved.
   double difference_fraction = 0.2;
   double leap_most_px_s = 1500.0;
-  // Share of the particles that are redrawn over the search region while the target is not
-  // believed.
+  // Share of the particles that are redrawn over the search region while the target is searched
+  // for. The region's 1-sigma grows at this rate, up to this maximum.
   double search_fraction = 0.4;
   double search_growth_px_s = 40.0;
   double search_sd_most_px = 120.0;
 
-  double reference_interval_s = 0.3;  // interval between images that are kept for foreground masks
-  double pixel_sd_floor_px = 0.005;   // least 1-sigma of the refined position
+  // Interval between the images that are stored for foreground masks.
+  double reference_interval_s = 0.3;
+  double pixel_sd_floor_px = 0.005;  // 1-sigma that is added in quadrature to every position
 };
 
 config::Section tracker_section(TrackerConfig& config);  // the section [tracker]

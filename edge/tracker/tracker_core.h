@@ -1,5 +1,5 @@
-// The tracker while it has a target: one step of the paper's section 5 for each frame. tracker.h
-// checks the input.
+// The tracker of one target: performs one step of the paper's section 5 for each frame. Tracker
+// (tracker.h) has checked the input.
 #pragma once
 
 #include <optional>
@@ -66,10 +66,10 @@ class TrackerCore {
   Particle last_;  // the best estimate in the newest frame
   Reacquisition reacquisition_;
   Velocity velocity_ = Velocity::kUnknown;
-  // The step from the target's position predicted by the image to the one predicted by the mount,
-  // if the two disagree.
+  // Image and mount both predict the target's position. If the two predictions disagree, this is
+  // the step from the image's to the mount's.
   std::optional<Eigen::Vector2d> other_step_px_;
-  bool placed_ = false;  // particles and last_ are already advanced to the coming frame
+  bool placed_ = false;  // particles and last_ are already placed for the coming frame
 };
 
 }  // namespace ols::tracker

@@ -1,5 +1,6 @@
-// The places where a lost target is searched for by its appearance, a few in each frame: around its
-// last place, from the inside outwards, repeatedly.
+// Chooses the places where a lost target is searched for by its appearance, a few for each frame.
+// They form rings around its last place, from the inside outwards. After the last ring, the search
+// starts again in the middle.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +14,7 @@ class WideSearch {
   static constexpr int kPlaces = 2;  // per frame
   static constexpr int kRings = 4;   // number of rings of windows around the middle one
 
-  // The next places inside the frame, `step_px` apart, around `middle`.
+  // The next places around `middle`, `step_px` apart. Places outside the frame are skipped.
   std::vector<Eigen::Vector2d> next(const Eigen::Vector2d& middle, double step_px,
                                     const cv::Size& frame);
 
