@@ -10,18 +10,19 @@ namespace ols::detector {
 class BinnedResidual {
  public:
   static constexpr int kUnits = 64;  // units per grey level
-  // Standard deviation of the residual in white noise of one grey level [units].
+  // [units] Standard deviation of the residual if the image is white noise of one grey level.
   static constexpr double kUnitsOfNoise = 20.0;
 
-  // The mean of 4x4 pixels, weighted (1, 3, 3, 1) each way, minus its mean over 9x9 bins. `gray`:
-  // 8-bit, one channel. The result is half as wide and high, in 1/64 of a grey level, CV_16S: bin
-  // (x, y) is about pixel (2x + 0.5, 2y + 0.5).
+  // Each bin is the mean of 4x4 pixels, weighted (1, 3, 3, 1) along both axes, minus the mean of
+  // such means over 9x9 bins. `gray`: 8-bit, one channel. The result is half as wide and high, in
+  // 1/64 of a grey level, CV_16S. The centre of bin (x, y) is pixel (2x + 0.5, 2y + 0.5).
   cv::Mat measure(const cv::Mat& gray);
 
  private:
   void smooth_row(const cv::Mat& gray, int y);
 
-  std::vector<std::int16_t> columns_;  // of one row of bins, with a border of one pixel
+  // Column sums for one row of bins, with a border of one pixel.
+  std::vector<std::int16_t> columns_;
   cv::Mat smooth_, mean_;
 };
 

@@ -12,15 +12,16 @@ class BoxResidual {
  public:
   static constexpr int kUnits = 64;  // units per grey level
 
-  // Computes the magnitude of a difference: the mean of 3x3 pixels minus the mean of the 13x13
-  // pixels around them without the inner 7x7. It is in 1/64 of a grey level, CV_16S; each mean is
-  // rounded down. `gray`: 8-bit, one channel. Beyond its edges, the nearest pixel counts.
+  // Computes the magnitude of a difference for each pixel: the mean of the 3x3 pixels there minus
+  // the mean of the 13x13 pixels around it, without the inner 7x7. The result is in 1/64 of a grey
+  // level, CV_16S; each mean is rounded down. `gray`: 8-bit, one channel. Beyond the image's edges,
+  // its outermost pixels are repeated.
   void measure(const cv::Mat& gray);
   const cv::Mat& image() const { return residual_; }
 
  private:
   static constexpr int kReach = 6;  // [px] from the centre of the outer box to its edge
-  // Sides of the boxes [px].
+  // [px] Sides of the three boxes.
   static constexpr std::array<int, 3> kSides{3, 7, 13};
   struct Row {
     std::vector<std::uint16_t> columns;       // sums over the box's rows

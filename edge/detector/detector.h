@@ -1,5 +1,5 @@
-// Finds objects that fly or move in a camera's images, without a designation. Pure: no clock, no
-// files.
+// Finds flying or moving objects in a camera's images, without a designation. It uses neither
+// clocks nor files.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,11 +28,13 @@ class Detector {
 
   struct Result {
     std::vector<Detection> detections;  // of this image alone
-    bool suspended = false;  // everything changed at once, so movers are not searched for
+    // The whole image changed at once: movers and dim points were not searched for.
+    bool suspended = false;
     std::optional<tracker::ImageMotion> motion;  // from the previous image; nullopt without texture
   };
-  // `gray`: 8-bit, one channel, always of the same size. `predicted`: the motion according to the
-  // mount. It maps the previous image's pixels to this image's, and is refined with the images.
+  // `gray`: 8-bit, one channel, always of the same size. `predicted`: the motion of the scene in
+  // the image according to the mount's angles. It maps the previous image's pixels to this image's.
+  // The detector refines it by means of the images.
   Result advance(const cv::Mat& gray, double time_s,
                  const std::optional<Eigen::Matrix3d>& predicted, const Stars& stars = {});
 

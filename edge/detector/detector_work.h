@@ -14,8 +14,8 @@ namespace ols::detector {
 struct Picture {
   cv::Mat gray;                 // 8-bit, one channel; it is not modified
   double mid_exposure_s = 0.0;  // on any time scale
-  // The mount's motion, which maps the previous picture's pixels to this picture's; nullopt if
-  // unknown.
+  // The motion of the scene in the image according to the mount's angles. It maps the previous
+  // picture's pixels to this picture's; nullopt if unknown.
   std::optional<Eigen::Matrix3d> motion;
   Stars stars = {};
 };
@@ -23,14 +23,15 @@ struct Picture {
 struct Found {
   double mid_exposure_s = 0.0;
   std::vector<Tracklet> confirmed;  // includes objects that this picture does not show
-  bool suspended = false;           // everything changed at once, so movers were not searched for
-  // Measured since the previous picture that was looked at, exposed at from_s; nullopt without
-  // texture.
+  // The whole image changed at once: movers and dim points were not searched for.
+  bool suspended = false;
+  // The motion of the image since the previous picture that was processed, whose mid-exposure is
+  // `from_s`. nullopt without texture.
   std::optional<tracker::ImageMotion> motion = {};
   double from_s = 0.0;
 };
 
-// Looks at one picture after another. All must have the size of the first.
+// Processes one picture after another. All must have the size of the first.
 class PictureDetector {
  public:
   explicit PictureDetector(const DetectorConfig& config) : config_(config) {}

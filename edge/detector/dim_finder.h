@@ -1,5 +1,5 @@
-// Finds moving points that are too dim for a single image, by shift and stack against an even
-// background.
+// Finds moving points that are too dim for a single image. It sums images that are shifted along
+// each of many velocities (shift and stack). This needs a uniform background.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,38 +18,41 @@
 namespace ols::detector {
 
 struct DimConfig {
-  // Thresholds in standard deviations of a sum: of a peak of the shift and stack (eight images),
-  // which is then examined more closely; of the sum along the best line through sixteen images; of
-  // every eight images after these.
+  // Thresholds, in standard deviations of a sum. peak_sd: a peak of the shift and stack over eight
+  // images; such a peak is examined more closely. line_sd: the sum along the best straight path
+  // through sixteen images. next_sd: each later sum of eight images.
   double peak_sd = 4.6, line_sd = 6.2, next_sd = 3.6;
-  double least_px = 0.6;  // speed relative to the scene, per image: slower ones are taken for scene
-  std::size_t tiles = 8;  // largest number that is stacked with one image
-  std::size_t most = 16;  // number of points that are followed
+  // Least speed relative to the scene, per image; slower points belong to the scene.
+  double least_px = 0.6;
+  std::size_t tiles = 8;  // maximum number of tiles that are searched with each image
+  std::size_t most = 16;  // maximum number of points that are followed
 };
 
-// A point that the stack shows is followed on its straight path, and measured once in eight images
-// from these images alone, so that the noise of its detections is independent. If no part of the
-// picture is even, the search rests for a while, because the ground seldom becomes sky.
+// A point that the stack shows is followed along its straight path. It is measured once in eight
+// images, from these eight alone, so that the noise of successive measurements is independent. If
+// no part of the picture is uniform, the search pauses for 60 images, because the ground seldom
+// becomes sky.
 class DimFinder {
  public:
   explicit DimFinder(const DimConfig& config) : config_(config) {}
 
-  // `gray`: 8-bit, one channel. `motion` maps the previous image's pixels to this image's; nullopt:
-  // unknown, and the scene is taken to be at rest in the image. Returns what was measured in this
-  // image. Begins anew after a pause of a second.
+  // `gray`: 8-bit, one channel. `motion` maps the previous image's pixels to this image's. If it is
+  // nullopt (unknown), the scene is assumed to be at rest in the image. Returns the points that
+  // were measured with this image. The search begins anew if the previous image is more than a
+  // second old.
   std::vector<Detection> find(const cv::Mat& gray, double time_s,
                               const std::optional<Eigen::Matrix3d>& motion);
-  // Begins anew, because the scene changed at once.
+  // Begins anew; call it if the whole scene has changed at once.
   void clear();
 
  private:
   struct Point {
-    Eigen::Vector2d pixel, velocity_px;  // in the newest image, and per image relative to the scene
-    double signal_to_noise;              // of the newest eight images' sum
+    Eigen::Vector2d pixel, velocity_px;  // in the newest image; per image, relative to the scene
+    double signal_to_noise;              // of the sum of the newest eight images
     bool brighter;
     long id = 0;         // 0: not followed yet
-    int unmeasured = 0;  // images since it was measured or missed
-    int misses = 0;      // in succession
+    int unmeasured = 0;  // number of images since it was last measured or missed
+    int misses = 0;      // number of consecutive misses
   };
   void remember(const cv::Mat& gray, double time_s, const std::optional<Eigen::Matrix3d>& motion);
   void follow(std::vector<Detection>& found);
@@ -67,14 +70,14 @@ class DimFinder {
   DimConfig config_;
   BinnedResidual residual_;
   ResidualPast past_;
-  std::vector<double> times_s_;  // of the past's images, newest last
+  std::vector<double> times_s_;  // times of the images in past_, newest last
   StackTile tile_;
   VelocityStack stack_;
-  std::vector<Point> peaks_;  // of the tile that is being searched
+  std::vector<Point> peaks_;  // peaks of the tiles that are searched with this image
   std::vector<Point> followed_;
   std::size_t next_tile_ = 0;
-  std::size_t uneven_ = 0;  // tiles since the last even one
-  int rest_ = 0;            // images to leave out
+  std::size_t uneven_ = 0;  // number of tiles searched since the last uniform one
+  int rest_ = 0;            // number of images that are still to be skipped
   long next_id_ = 1;
 };
 

@@ -1,5 +1,5 @@
-// Sums the past images along the straight path of a point, without the rounding of a shift and
-// stack.
+// Sums the last images along the straight path of a point. Unlike a shift and stack, it does not
+// round the places.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,21 +13,24 @@ namespace ols::detector {
 
 class LineSum {
  public:
-  // `near_by`: a pixel of the newest image, close to all places that will be asked for. The scene's
-  // motion and the noise are those at this pixel. `past` must be complete, and outlive this object.
+  // `near_by`: a pixel of the newest image, close to all paths that will be summed. The scene's
+  // motion and the noise are taken at this pixel. `past` must be complete, and must outlive this
+  // object.
   LineSum(const ResidualPast& past, const Eigen::Vector2d& near_by);
 
-  // The sum over the `images` newest images, in standard deviations of that sum in white noise. In
-  // the newest image the point is at `pixel`; it moves by `velocity_px` per image relative to the
-  // scene. One image counts at most four standard deviations. 0 outside the image.
+  // The sum over the newest `images` images, divided by the standard deviation that it would have
+  // in white noise. The point is at `pixel` in the newest image, and moves by `velocity_px` per
+  // image relative to the scene. Each image contributes at most four of its own standard
+  // deviations; places outside an image contribute 0.
   double along(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                std::size_t images) const;
-  // The same, without what is at those places before and after the point has passed. Takes ten
-  // times as long.
+  // Like along(), but first subtracts the scene at each place: the mean of the images in which the
+  // point is elsewhere. Takes ten times as long.
   double along_without_scene(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                              std::size_t images) const;
-  // The same in standard deviations of such sums along parallel paths around it, if these differ
-  // more than in white noise: texture, of a cloud for instance, that moves along with the point.
+  // Like along_without_scene(). However, sums along parallel paths around it may vary more than in
+  // white noise, because of a texture, such as a cloud's, that moves along with the point. The sum
+  // is then divided by their standard deviation instead.
   double along_without_texture(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                                std::size_t images) const;
 

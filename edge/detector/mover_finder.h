@@ -11,19 +11,19 @@
 namespace ols::detector {
 
 struct MoverConfig {
-  double threshold_sd = 6.0;        // minimum difference, in standard deviations of the tile
+  double threshold_sd = 6.0;        // minimum difference, in units of the tile's usual difference
   double least_levels = 10.0;       // [grey levels] minimum difference
-  double least_area_px = 8.0;       // in the reduced image
-  double most_side_fraction = 0.6;  // largest side, relative to the image's side
-  std::size_t most = 30;            // maximum number of detections, largest first
+  double least_area_px = 8.0;       // minimum area in the reduced image
+  double most_side_fraction = 0.6;  // maximum width and height, relative to the image's
+  std::size_t most = 30;            // maximum number of detections; the largest come first
 };
 
 class MoverFinder {
  public:
   explicit MoverFinder(const MoverConfig& config) : config_(config) {}
 
-  // `motion` maps pixels of the previous reduced frame to the present one. If it is unknown
-  // (nullopt), the search begins anew. Returns nullopt if the whole image changed at once
+  // `motion` maps pixels of the previous reduced frame to the present one. If it is nullopt
+  // (unknown), the search begins anew. Returns nullopt if the whole image changed at once
   // (exposure, a cloud's edge, a cut).
   std::optional<std::vector<Detection>> find(const tracker::ReducedFrame& frame, double time_s,
                                              const std::optional<Eigen::Matrix3d>& motion);

@@ -1,4 +1,5 @@
-// The matched filter's results of the last images, and where the scene was in each.
+// Stores the results of the matched filter for the last images, and the place of the scene in each
+// of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,15 +13,16 @@ class ResidualPast {
  public:
   static constexpr std::size_t kImages = 16;
 
-  // `residual`: of BinnedResidual. `motion` maps the previous image's pixels to the new image's. If
-  // the motion cannot be inverted, the past begins anew.
+  // `residual`: the result of BinnedResidual. `motion` maps the previous image's pixels to the new
+  // image's. Earlier images that can no longer be aligned are removed.
   void add(const cv::Mat& residual, const Eigen::Matrix3d& motion);
   void clear() { kept_.clear(); }
   bool complete() const { return kept_.size() == kImages; }
 
-  // By age in images: 0 is the newest.
+  // `age`: in images; 0 is the newest.
   const cv::Mat& residual(std::size_t age) const { return kept_[age].residual; }
-  // How far the scene at a pixel of the newest image was from that pixel, in pixels.
+  // A point of the scene is at `pixel` in the newest image. Returns its place in the image of this
+  // age, relative to `pixel`.
   Eigen::Vector2d shift_px(std::size_t age, const Eigen::Vector2d& pixel) const;
 
  private:

@@ -1,4 +1,4 @@
-// The scene without moving objects, as the camera sees it now.
+// Estimates the scene without moving objects, as the camera sees it now.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,23 +8,22 @@
 namespace ols::detector {
 
 // The scene is the median of three images of the last second, each aligned with the present image.
-// A moving object covers a given place in only one of them. The scene is available after a moment,
-// even while the camera moves.
+// A moving object covers a given place in only one of the three, and the median therefore shows the
+// scene. The estimate is available after 0.25 s, even while the camera moves.
 class SceneBackground {
  public:
   void clear() { kept_.clear(); }
-  // Notes that the camera has turned: `motion` maps the previous image's pixels to the present
-  // image's.
+  // Takes the camera's motion: `motion` maps the previous image's pixels to the present image's.
   void advance(const Eigen::Matrix3d& motion);
-  // Whether there are three images and the oldest is at least `kLeastAge_s` old.
+  // Whether at least three images are stored, and the oldest is at least `kLeastAge_s` old.
   bool ready(double time_s) const;
-  // The darkest and the brightest level within one pixel of each place.
+  // The darkest and the brightest grey level within one pixel of each place.
   struct Range {
     cv::Mat low, high;
   };
-  // In `seen`, places that an earlier image does not show are 0.
+  // `seen` is 0 at places that one of the three images does not show, and 255 elsewhere.
   struct Scene {
-    Range usual;  // range of the median
+    Range usual;  // range of the median image
     Range ever;   // range over all three images
     cv::Mat seen;
   };

@@ -1,5 +1,5 @@
-// Finds compact bright or dark spots against a smooth background in a single image, such as a
-// target against the sky, however slowly it moves.
+// Finds compact spots, brighter or darker than a smooth background, in a single image. A target in
+// front of the sky is such a spot, even if it does not move.
 #pragma once
 
 #include <algorithm>
@@ -17,15 +17,16 @@ namespace ols::detector {
 struct SpotConfig {
   double threshold_sd = 5.0;  // minimum peak, in standard deviations of the ring around it
   double least_levels = 2.0;  // [grey levels] minimum peak
-  double most_clutter = 0.5;  // largest deviation in the ring (95 % quantile), relative to the peak
-  int levels = 5;             // number of pyramid levels; each finds spots of twice the size
-  std::size_t most = 60;      // maximum number, strongest first
+  double most_clutter = 0.5;  // maximum deviation in the ring (95 % quantile), relative to the peak
+  int levels = 5;  // number of pyramid levels; each finds spots twice as large as the one before
+  std::size_t most = 60;  // maximum number of spots; the strongest come first
 };
 
-// The threshold at each place follows from the spread within the ring around it (order-statistic
-// constant false alarm rate): a branch, a text or the edge of a cloud has similar things around it;
-// a target does not. A bright target does not raise the threshold for its neighbour, because order
-// statistics ignore it.
+// The threshold at each place follows from the spread of grey levels in the ring around it
+// (order-statistic constant false alarm rate). The ring around a branch, a text or the edge of a
+// cloud contains more of the same, which raises the threshold; the ring around a target does not. A
+// bright target does not raise the threshold for its neighbour, because order statistics ignore
+// outliers.
 class SpotFinder {
  public:
   explicit SpotFinder(const SpotConfig& config)
@@ -44,9 +45,9 @@ class SpotFinder {
 
   SpotConfig config_;
   std::vector<cv::Mat> reduced_;  // all levels of the pyramid except the image itself
-  BoxResidual residual_;          // of the level that is being searched
+  BoxResidual residual_;          // residual of the level that is searched
   TileMedians usual_;             // medians of the residual
-  std::vector<cv::Point> peaks_;  // of one tile
+  std::vector<cv::Point> peaks_;  // peaks of one tile
 };
 
 }  // namespace ols::detector

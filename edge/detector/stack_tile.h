@@ -1,4 +1,5 @@
-// Prepares a tile of the last images for a shift and stack, if its noise is that of a camera.
+// Prepares a tile of the last images for a shift and stack. Refuses the tile if its noise is not a
+// camera's noise.
 #pragma once
 
 #include <array>
@@ -15,9 +16,10 @@ class StackTile {
   static constexpr int kScale = 28;  // values per standard deviation of the noise
 
   // Aligns eight images at the tile's centre, subtracts their median from each of them, divides by
-  // the noise, and puts the result into `stack`. `corner`: of the tile, in bins. Returns false if
-  // the false alarm rate of a stack would be unknown there:
-  // - the noise hides in the rounding to whole grey levels;
+  // the noise, and puts the result into `stack`. `corner`: the tile's top-left corner [bins].
+  // Returns false if the false alarm rate of a stack would be unknown there, for one of these
+  // reasons:
+  // - the noise is lost in the rounding to whole grey levels;
   // - the median varies from bin to bin as much as the noise: a texture, or an encoder's frozen
   //   noise;
   // - large deviations are more frequent than in normal noise: something large moves there.
@@ -27,7 +29,7 @@ class StackTile {
   using Plane = std::array<std::int16_t, VelocityStack::kStride * VelocityStack::kRows>;
   void load(const ResidualPast& past, const cv::Point& corner);
   void find_median();
-  // Standard deviation of the noise [units of the residual]; 0: it is not a camera's.
+  // [units of the residual] Standard deviation of the noise; 0 if it is not a camera's noise.
   double noise() const;
 
   std::array<Plane, VelocityStack::kImages> images_{};

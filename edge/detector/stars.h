@@ -1,4 +1,4 @@
-// What is known of the stars in a picture.
+// Whether a picture may show stars, and how they move in it.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,9 +7,9 @@
 namespace ols::detector {
 
 struct Stars {
-  bool show = false;  // it is night
-  // Maps a star's pixel in the previous picture to its pixel in this one, by the mount's angles and
-  // the Earth's rotation; nullopt if unknown.
+  bool show = false;  // the picture was taken at night
+  // Maps a star's pixel in the previous picture to its pixel in this one. It is computed from the
+  // mount's angles and the Earth's rotation; nullopt if unknown.
   std::optional<Eigen::Matrix3d> motion = {};
 };
 

@@ -1,4 +1,5 @@
-// The median of an image in each tile, computed only where it is needed.
+// Computes the medians of an image's tiles, only where they are needed. Each tile is about 24
+// pixels wide and high. Its median is taken over every third pixel of every third row.
 #pragma once
 
 #include <cstddef>

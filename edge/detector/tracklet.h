@@ -1,4 +1,4 @@
-// A possible object: its motion in the image, and the evidence that it exists.
+// A tracklet is a possible object: its motion in the image, and the evidence that it exists.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,19 +10,19 @@
 
 namespace ols::detector {
 
-// The model is constant velocity, in full-frame pixels and seconds. The two axes share one
-// covariance.
+// A Kalman filter with constant velocity relative to the scene, in full-frame pixels and seconds.
+// Both axes have the same covariance.
 class Tracklet {
  public:
   Tracklet(long id, const Detection& detection, double image_width_px);
 
-  // Predicts the state for the next image; `motion` maps pixels of the previous image to that
-  // image, and `star_motion` those of a star.
+  // Predicts the state for the next image. `motion` maps the scene's pixels in the previous image
+  // to those in the next one; `star_motion` does the same for stars.
   void predict(const Eigen::Matrix3d& motion, double interval_s,
                const std::optional<Eigen::Matrix3d>& star_motion = std::nullopt);
   void update(const Detection& detection);
-  // Notes that the object was found again at another place than predicted: position and velocity
-  // begin anew.
+  // Call instead of update() if the object was found at another place than predicted: position and
+  // velocity begin anew.
   void leap(const Detection& detection, double image_width_px);
   void miss() {
     seen_ = false;
@@ -31,57 +31,56 @@ class Tracklet {
 
   // Whether the detection has the same polarity and about the same size.
   bool resembles(const Detection& detection) const;
-  // Squared distance to the detection in standard deviations, and the probability density of that
-  // deviation [1/px^2].
+  // distance(): the squared distance between prediction and detection, divided by its variance.
+  // density(): the predicted probability density at the detection [1/px^2].
   double distance(const Detection& detection) const;
   double density(const Detection& detection) const;
 
-  // The sequential test: adds to the log likelihood ratio of object against clutter, which may grow
-  // to `most`.
+  // The sequential test: adds `log_ratio` to the logarithm of the likelihood ratio of object to
+  // clutter. The sum is limited to `most`.
   void weigh(double log_ratio, double most);
   double log_ratio() const { return log_ratio_; }
   void confirm(bool before_sky);
   void doubt() { confirmed_ = false; }
   bool confirmed() const { return confirmed_; }
-  bool confirmed_clear() const { return confirmed_clear_; }  // it was confirmed by clear spots
+  bool confirmed_clear() const { return confirmed_clear_; }  // clear spots have confirmed it
 
   long id() const { return id_; }
   const Eigen::Vector2d& pixel() const { return pixel_; }
   const Eigen::Vector2d& velocity_px_s() const { return velocity_px_s_; }
-  double velocity_sd_px_s() const { return std::sqrt(covariance_(1, 1)); }  // for each axis
-  // The newest detection: its pixel, its standard deviation on each axis, and its size.
+  double velocity_sd_px_s() const { return std::sqrt(covariance_(1, 1)); }  // on each axis
+  // The newest detection: its pixel, the 1-sigma of that pixel on each axis, and its size.
   const Eigen::Vector2d& measured_pixel() const { return measured_pixel_; }
   double measured_sd_px() const { return measured_sd_px_; }
   const Eigen::Vector2d& measured_size_px() const { return measured_size_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }  // smoothed
-  // The outline of the newest detection, from measure_outline(); nullopt if it has no clear
-  // outline.
+  // The outline that measure_outline() found for the newest detection; nullopt if there is none.
   const std::optional<Outline>& outline() const { return outline_; }
   void measure_outline(const cv::Mat& gray);
   double signal_to_noise() const { return signal_to_noise_; }
-  // The point that stacks of images have last shown here, and the number of images without any
-  // detection; nullopt if only single images show it.
+  // path(): the id of the dim point that stacks of images show here; nullopt if only single images
+  // show the object. unseen_images(): the number of images since its last detection.
   const std::optional<long>& path() const { return path_; }
   int unseen_images() const { return unseen_images_; }
-  bool seen() const { return seen_; }  // whether the newest image shows it
+  bool seen() const { return seen_; }  // whether it was detected in the newest image
   double unseen_s() const { return unseen_s_; }
   double age_s() const { return age_s_; }
   bool mostly_clear() const { return clear_ > 0.7 * detections_; }
-  // The distance from the place where it began, and the length of its path from there; both without
-  // the camera's motion.
+  // The distance from the place where it began, and the length of its path from there; both
+  // relative to the scene.
   double way_px() const { return (pixel_ - origin_).norm(); }
   double path_px() const { return path_px_ + (pixel_ - mark_).norm(); }
-  // scene_shift_px: how far the scene has moved in the image since the tracklet began. reach_px:
-  // the largest distance, in the image, from the place where it began.
+  // scene_shift_px(): how far the scene has moved in the image since the tracklet began.
+  // reach_px(): its largest distance so far from the pixel where it began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
   double reach_px() const { return reach_px_; }
-  // The distance from where a star would be that was at the place where it began.
+  // The distance from a star that was at the tracklet's first place when the tracklet began.
   double off_star_px() const { return (pixel_ - star_).norm(); }
-  // How far that star has moved relative to the scene.
+  // How far that star has moved since then, relative to the scene.
   double star_path_px() const { return (star_ - origin_).norm(); }
-  // Whether it has not moved relative to the scene in the last seconds.
+  // Whether it has hardly moved relative to the scene during the last three seconds.
   bool rests() const { return rests_; }
-  // Forgets its motion so far, because the camera's motion was unknown.
+  // Call if the camera's motion was unknown: forgets its way so far.
   void forget_way();
 
  private:
@@ -92,20 +91,20 @@ class Tracklet {
 
   long id_;
   Eigen::Vector2d pixel_, velocity_px_s_ = Eigen::Vector2d::Zero(), size_px_;
-  // The places where it began, where it was a moment ago, and where it was a second ago; all three
-  // move with the scene.
+  // The places where it began (origin_), where it was at the last mark, at most 0.2 s ago (mark_),
+  // and where it was at most three seconds ago (rest_). All three move with the scene.
   Eigen::Vector2d origin_, mark_, rest_;
-  Eigen::Vector2d star_;         // where a star would be that was at origin_ when it began
-  Eigen::Vector2d first_pixel_;  // place in the image where it began
+  Eigen::Vector2d star_;         // present place of a star that was at the tracklet's first place
+  Eigen::Vector2d first_pixel_;  // the pixel where it began
   Eigen::Vector2d measured_pixel_;
   double measured_sd_px_;
   Eigen::Vector2d measured_size_px_;
   std::optional<Outline> outline_;
   double reach_px_ = 0.0;
-  double marked_s_ = 0.0, rested_s_ = 0.0;  // how long mark_ and rest_ have been kept
-  double path_px_ = 0.0;                    // length up to the mark
-  Eigen::Matrix2d covariance_;              // of position and velocity, on each axis
-  double acceleration_px_s2_;               // standard deviation
+  double marked_s_ = 0.0, rested_s_ = 0.0;  // age of mark_; age of rest_
+  double path_px_ = 0.0;                    // length of the path up to mark_
+  Eigen::Matrix2d covariance_;              // of position and velocity; the same for both axes
+  double acceleration_px_s2_;               // standard deviation of the acceleration
   double signal_to_noise_;
   bool brighter_;
   double log_ratio_ = 0.0, unseen_s_ = 0.0, age_s_ = 0.0;

@@ -1,4 +1,5 @@
-// The tracklets of one camera. Assigns detections to them, and confirms them by a sequential test.
+// Keeps the tracklets of one camera: assigns detections to them, and confirms them by a sequential
+// test.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,20 +14,20 @@
 namespace ols::detector {
 
 struct TrackletConfig {
-  // Allowed number per hour of tracklets that are confirmed although they are clutter, for the
-  // whole camera.
+  // Allowed number of false confirmations per hour, for the whole camera. (A confirmed tracklet is
+  // false if it is clutter.)
   double false_an_hour = 1.0;
   double detected = 0.8;  // probability that an object is detected in an image
-  // Clutter repeats itself in successive images, so one detection adds at most this much to the log
-  // ratio.
+  // Clutter repeats itself in successive images. Therefore, one detection adds at most this much to
+  // the log likelihood ratio of its tracklet.
   double most_log_ratio = 1.5;         // for a spot against a clear sky
   double most_ground_log_ratio = 0.7;  // for anything else
-  // What a detection by a stack of images adds if it lies where a dim point's path leads. Noise
-  // produces such a detection only in one of 250 tries.
+  // What each further detection of a dim point (Evidence::kStack) adds to the log likelihood ratio.
+  // Noise produces such a detection on a given path only once in 250 tries.
   double stack_log_ratio = 4.0;
   double least_directness =
-      0.7;  // for objects against the ground: smallest distance over length of the path
-  double coast_s = 0.4;  // how long an object is kept while it is not seen
+      0.7;  // minimum distance from the start over path length, for objects against the ground
+  double coast_s = 0.4;  // how long a confirmed tracklet is kept without detections
 };
 
 class TrackletBook {
@@ -46,7 +47,7 @@ class TrackletBook {
   void weigh_hit(Tracklet& tracklet, const Detection& detection);
   void weigh_miss(Tracklet& tracklet);
   ClutterMap& clutter_of(const Detection& detection);
-  // The threshold of the sequential test in the tracklet's tile [log].
+  // The threshold of the sequential test in the tracklet's tile, as a log likelihood ratio.
   double needed(const Tracklet& tracklet) const;
   void judge(Tracklet& tracklet) const;
   bool may_be_star(const Tracklet& tracklet) const;
@@ -56,7 +57,7 @@ class TrackletBook {
   bool hopeless(const Tracklet& tracklet) const;
 
   TrackletConfig config_;
-  // Single images and stacks have different clutter.
+  // The clutter of single images, and that of stacks.
   ClutterMap clutter_, stack_clutter_;
   cv::Size image_;
   std::vector<Tracklet> tracklets_;

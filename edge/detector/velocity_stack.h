@@ -10,30 +10,32 @@
 
 namespace ols::detector {
 
-// Works on one tile, with a margin for points that move in from outside. The mean over eight images
-// is computed from means over four, and these from means over two, so that velocities share parts
-// of the work.
+// Works on one tile, with a margin for points that move in from outside. Means over eight images
+// are computed from means over four, and these from means over two. Different velocities share
+// these means, which saves time.
 class VelocityStack {
  public:
   static constexpr int kImages = 8;
   static constexpr int kWidth = 64, kHeight = 32;  // of the tile [bins]
   static constexpr int kMargin = 16;               // on each side [bins]
   static constexpr int kStride = kWidth + 2 * kMargin, kRows = kHeight + 2 * kMargin;
-  static constexpr int kFastest = 2;           // [bins per image] on each axis
-  static constexpr int kSteps = 4 * kFastest;  // velocities: -kSteps...kSteps, in 1/4 bin per image
-  static constexpr std::uint8_t kZero = 128;   // of the values
+  static constexpr int kFastest = 2;  // [bins per image] highest speed on each axis
+  // velocities: -kSteps .. kSteps, in 1/4 bin per image
+  static constexpr int kSteps = 4 * kFastest;
+  static constexpr std::uint8_t kZero = 128;  // the value that means zero
 
   using Values = std::array<std::uint8_t, static_cast<std::size_t>(kStride* kRows)>;
   using Tile = std::array<std::uint8_t, static_cast<std::size_t>(kWidth* kHeight)>;
 
   VelocityStack();
-  // Values of an image with kZero for nothing; 0 is the newest. Row by row, with the margins.
+  // The values of an image, row by row, with the margins; kZero means zero. `age`: 0 is the newest.
   Values& image(std::size_t age) { return images_.at(age); }
   void run();
   // The highest and the lowest mean over all velocities, for each place in the newest image.
   const Tile& highest() const { return highest_; }
   const Tile& lowest() const { return lowest_; }
-  // The mean at a place of the newest image for one velocity in steps.
+  // The mean for one place of the newest image and one velocity. `steps`: the velocity in 1/4 bin
+  // per image.
   int mean(const cv::Point& at, const cv::Point& steps) const;
 
  private:
