@@ -1,5 +1,5 @@
-// The rows of a picture where the map of the land expects the skyline, and the directions of the
-// skyline that was found. Pure.
+// Computes the rows of a picture at which the map of the land expects the skyline, and the
+// directions of the skyline that was found in it. Without state.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,29 +14,30 @@
 
 namespace ols::skyline {
 
-// 1-sigma of heading and tilt that is added to what the station states, so that errors larger than
-// stated are still found at once.
+// 1-sigma of heading and tilt. It is added in quadrature to the 1-sigma that the station states, so
+// that errors larger than stated are found, too.
 inline constexpr double kHeadingSd_rad = radians(0.3), kTiltSd_rad = radians(0.1);
 
-// How a picture was taken, according to the station.
+// Direction and camera of a picture, as the station states them.
 struct PictureView {
-  Eigen::Matrix3d R_enu_cam = Eigen::Matrix3d::Identity();  // in the frame of the map's camera
+  // Rotates from the camera to east, north, up at the map's camera.
+  Eigen::Matrix3d R_enu_cam = Eigen::Matrix3d::Identity();
   CameraIntrinsics camera;
-  // 1-sigma of the picture's directions, as the station states it.
+  // 1-sigma of the picture's directions, as the station states them.
   double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
 };
 
-// The map's skyline. Nearer land may be lower than the crest by so little that, with the map's
-// errors, it may cover the crest. The sigma is then that of the nearer land. nullopt where the land
-// is unknown.
+// The map's skyline. Nearer land may be lower than the crest by less than two of its sigmas. With
+// the map's errors, it may then cover the crest; therefore, its sigma is used if it is greater.
+// nullopt where the land is unknown.
 std::optional<land::Skyline> uncertain_skyline(const land::HorizonMap& map, double azimuth_rad);
 
-// The row of the land's skyline in each strip of a picture. The sigmas are wide enough for a
-// station whose errors of heading and tilt are somewhat larger than stated. nullopt where the land
-// is unknown and where the skyline is far outside the picture.
+// The row of the land's skyline in each strip of a picture. The sigmas contain kHeadingSd_rad and
+// kTiltSd_rad. nullopt where the land is unknown, or where the skyline is far outside the picture.
 Rows expected_rows(const land::HorizonMap& map, const PictureView& view);
 
-// The same rows, with sigmas wide enough for obstacles that stand kHighest_rad above the skyline.
+// The same rows with greater sigmas, so that obstacles up to kHighest_rad above the skyline are
+// found.
 Rows widely_expected(Rows rows, const PictureView& view);
 inline constexpr double kHighest_rad = radians(2.0);
 

@@ -1,4 +1,5 @@
-// A station's seen skyline as it is saved over a restart, and its text in a file. Pure.
+// Saves a station's seen skyline, so that it survives a restart: converts it to the text of a file
+// and back. The file has these lines:
 //
 //   ols-skyline 1
 //   station ID
@@ -21,9 +22,9 @@
 
 namespace ols::skyline {
 
-// Identifies the setup in which a skyline was seen. Directions can be compared only if they are
-// from the same setup. The calibration's id is not enough, because an operator may change the
-// configured heading and keep the calibration.
+// Identifies the setup from which a skyline was seen. Skylines from different setups cannot be
+// combined. The calibration's id is not enough, because an operator may change the configured
+// heading and keep the calibration.
 struct SkylineOwner {
   std::string station;
   std::int64_t calibration_id = 0;
@@ -32,7 +33,8 @@ struct SkylineOwner {
   bool operator==(const SkylineOwner&) const = default;
 };
 
-// A hash of heading, tilt, mounting and encoders, each to the microradian.
+// A hash of heading, tilt, mounting and encoder zeros, each rounded to a microradian, and of the
+// encoders' signs.
 std::uint64_t chain_hash(const ChainParameters& chain);
 
 struct SavedSkyline {
@@ -42,10 +44,10 @@ struct SavedSkyline {
 
 std::string to_text(const SavedSkyline& saved);
 
-// Returns the skyline in the text, or an error that names the line.
+// Returns the skyline, or an error message that names the wrong line, if any.
 std::variant<SavedSkyline, std::string> saved_skyline_from(std::string_view text);
 
-// The reason why `owner` cannot use `saved`; empty if it can.
+// The reason why a station with the setup `owner` cannot use `saved`; empty if it can.
 std::string why_not_used(const SavedSkyline& saved, const SkylineOwner& owner);
 
 }  // namespace ols::skyline

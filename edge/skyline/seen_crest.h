@@ -1,4 +1,5 @@
-// Combines the seen skyline and the map at one azimuth, according to their errors. Pure.
+// Combines the seen skyline with the map at one azimuth, according to the errors of both. Without
+// state.
 #pragma once
 
 #include <optional>
@@ -9,21 +10,22 @@
 
 namespace ols::skyline {
 
-// `elevation_sd_rad`: 1-sigma that the station states for its elevations.
+// Returns the crest that hides targets. `elevation_sd_rad`: 1-sigma that the station states for its
+// elevations. There are three cases:
 //
-// - Both agree within three sigmas: the crest is the mean, weighted by their variances, at the
-//   distance of the map's crest.
-// - The pictures show something higher, at an unknown distance. Suppose that it is kTallest_m high.
-//   It hides targets beyond the farthest place, up to the map's crest, where its top reaches that
-//   elevation.
-// - The pictures show something lower: they do not change what the map hides, because haze may
-//   conceal the map's crest.
+// - Pictures and map agree within three sigmas: the crest is the mean of the two, weighted by their
+//   variances, at the distance of the map's crest.
+// - The pictures show something higher, at an unknown distance. It is assumed to be an object
+//   kTallest_m high, and to stand as far away as possible: at the farthest place, up to the map's
+//   crest, where its top reaches the seen elevation. It hides targets beyond that place.
+// - The pictures show something lower: what the map hides does not change, because haze may conceal
+//   the map's crest.
 //
 // nullopt where the map knows no land.
 std::optional<land::SeenCrest> seen_crest(const SeenPlace& seen, double elevation_sd_rad,
                                           const land::HorizonMap& map);
 
-// Trees and houses are lower; anything higher is rare.
+// Nearly all trees and houses are lower.
 inline constexpr double kTallest_m = 30.0;
 
 }  // namespace ols::skyline

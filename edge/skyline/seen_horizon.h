@@ -1,4 +1,4 @@
-// The skyline as a station's pictures have shown it lately, by azimuth. Pure.
+// Averages the skyline that a station's recent pictures show, for each azimuth.
 #pragma once
 
 #include <limits>
@@ -11,34 +11,34 @@ namespace ols::skyline {
 // One azimuth of the seen skyline, computed with the station's heading and tilt.
 struct SeenPlace {
   AzimuthElevation direction;
-  double variance_rad2 = 0.0;  // of the elevation, from the pictures alone
-  // Of the azimuth, as stated by the station. The error of the azimuths may be the same at all
-  // places.
+  double variance_rad2 = 0.0;  // variance of the elevation, from the pictures alone
+  // Variance of the azimuth, as stated by the station. All places may have the same error of
+  // azimuth.
   double azimuth_variance_rad2 = 0.0;
-  double newest_s = 0.0;  // time of the newest of its pictures
-  double oldest_s = 0.0;  // time of the first of its pictures
-  int pictures = 1;       // number that is averaged; at most SeenHorizon::kMost
+  double newest_s = 0.0;  // time of its newest picture
+  double oldest_s = 0.0;  // time of its first picture
+  int pictures = 1;       // number of pictures in the mean; at most SeenHorizon::kMost
 };
 
 // Several pictures of the same place are averaged. This reduces the noise of the pictures, but not
-// the error of the model of the land. New pictures replace old ones, because a tripod may be
-// knocked.
+// the error of the model of the land. New pictures replace old ones, because somebody may knock the
+// tripod.
 class SeenHorizon {
  public:
-  // A picture that shows a place higher or lower than its mean, by more than `anew_rad`, begins the
-  // mean anew.
+  // If a picture shows a place more than `anew_rad` above or below the mean of that place, the mean
+  // begins anew.
   explicit SeenHorizon(double anew_rad = std::numeric_limits<double>::infinity());
 
-  // Pictures in order of their times [s]. `azimuth_sd_rad`: 1-sigma that the station states for the
-  // picture's azimuths.
+  // Adds a picture; call it in the order of the pictures' times [s]. `azimuth_sd_rad`: 1-sigma that
+  // the station states for the picture's azimuths.
   void add(const std::vector<SkylinePoint>& picture, double time_s, double azimuth_sd_rad);
   void clear();
-  // In the order of their azimuths; only those that a picture has shown within kMemory_s before the
-  // newest picture.
+  // The places in the order of their azimuths. Places that no picture has shown during the last
+  // kMemory_s before the newest picture are left out.
   std::vector<SeenPlace> places() const;
 
-  static constexpr int kColumns = 7200;  // as many as a map has
-  // At each of its places, the newest picture has at least the weight 1 / kMost in the mean.
+  static constexpr int kColumns = 7200;  // as many as a land::HorizonMap has
+  // The newest picture of a place has at least the weight 1 / kMost in the mean.
   static constexpr int kMost = 5;
   static constexpr double kMemory_s = 1800.0;
 

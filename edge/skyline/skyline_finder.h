@@ -1,9 +1,10 @@
-// Finds the edge between sky and land in a picture, near the rows where a model expects it. Pure.
+// Finds the edge between sky and land in a picture, near the rows at which a model expects it.
+// Without state.
 //
-// The picture is divided into strips of two columns. In each strip, every row near the expected
-// one gets a likelihood: above the edge the brightness changes as it does in the sky of this
-// picture, below it as it does in the land. Neighbouring strips have similar offsets from their
-// expected rows, so all strips are solved together, as a hidden Markov model.
+// The picture is divided into strips of two columns. In each strip, every row near the expected one
+// gets a likelihood of being the edge: the brightness above it must vary as in this picture's sky,
+// and the brightness below it as in this picture's land. Neighbouring strips have similar offsets
+// from their expected rows. Therefore, all strips are solved together, as a hidden Markov model.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -12,22 +13,22 @@
 
 namespace ols::skyline {
 
-inline constexpr int kStrip_px = 2;  // columns of a strip
+inline constexpr int kStrip_px = 2;  // width of a strip
 
 // A row of the picture; row 0.0 is the middle of the topmost pixels.
 struct Row {
   double at_px = 0.0;
   double sd_px = 0.0;  // 1-sigma
 };
-using Rows = std::vector<std::optional<Row>>;  // of each strip, from the left
+using Rows = std::vector<std::optional<Row>>;  // one for each strip, from left to right
 
 inline int strips_of(int columns_px) { return columns_px / kStrip_px; }
 // The middle of a strip [px].
 inline double strip_x_px(int strip) { return kStrip_px * strip + 0.5 * (kStrip_px - 1); }
 
-// `gray`: 8 bit, one channel. `expected`: a row, which may be outside the picture, for each strip;
-// nullopt if nothing is known there. The result is nullopt where the edge is not clear: in cloud or
-// haze, outside the picture, or where several rows are possible.
+// `gray`: 8 bit, one channel. `expected`: for each strip the expected row, which may be outside the
+// picture; nullopt if it is unknown. The result is nullopt for strips without a clear edge: in
+// cloud or haze, outside the picture, or if several rows are possible.
 Rows find_skyline(const cv::Mat& gray, const Rows& expected);
 
 }  // namespace ols::skyline

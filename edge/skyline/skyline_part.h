@@ -1,4 +1,4 @@
-// The seen skyline in parts that fit into a message. Pure.
+// Divides the seen skyline into parts that fit into a message.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,14 +11,15 @@
 namespace ols::skyline {
 
 struct SkylinePart {
-  std::int64_t begun_us = 0;  // as in HidingSkyline; 0: nothing is seen
+  std::int64_t begun_us = 0;  // HidingSkyline::begun_us; 0 if nothing has been seen
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   bool heading_disagrees = false;
   int sector = 0;
-  std::vector<land::SeenSkyline::Column> columns;  // all that are seen in this sector
+  std::vector<land::SeenSkyline::Column> columns;  // all columns of this sector that have been seen
 };
 
-// Returns the sectors in which anything has been seen, one after the other.
+// Each call returns the next sector in which anything has been seen; after the last sector follows
+// the first.
 class SkylineParts {
  public:
   SkylinePart next(const HidingSkyline& skyline, bool heading_disagrees);

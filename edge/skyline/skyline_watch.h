@@ -1,5 +1,6 @@
-// Compares a station's pictures with the skyline of the land, one picture after the other. Pure,
-// but slow: a picture takes some tens of milliseconds, the first one seconds.
+// Compares a station's pictures with the skyline of the land, one picture after the other. A
+// picture takes some tens of milliseconds. The first picture at a new place takes seconds, because
+// the map of the horizon is computed for that place.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,15 +26,15 @@ struct StatedPicture {
   double mid_exposure_s = 0.0;  // on the station's monotonic clock
   cv::Mat gray;                 // 8-bit, one channel
   video::CameraView camera;
-  // 1-sigma of its azimuths and elevations from heading, tilt, mounting, angles and lens; these
-  // errors may be the same in all pictures.
+  // 1-sigma of its azimuths and elevations, from the errors of heading, tilt, mounting, angles and
+  // lens. These errors may be the same in all pictures.
   double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
   Eigen::Vector3d position_sd_enu_m = Eigen::Vector3d::Zero();
-  std::int64_t utime_us = 0;  // of the exposure, UTC
+  std::int64_t utime_us = 0;  // UTC of the exposure
 };
 
-// What hides targets from a station: the skyline that it has seen, from one place and with one
-// setup.
+// The skyline that a station has seen from one place and with one setup, as far as it hides
+// targets.
 struct HidingSkyline {
   std::int64_t begun_us = 0;  // UTC of the first picture; distinguishes one skyline from the next
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
@@ -46,33 +47,37 @@ class SkylineWatch {
                         const land::HorizonMapConfig& config = {})
       : surface_(std::move(surface)), config_(config) {}
 
-  // Pictures in order of their times. If the camera has been moved, all earlier pictures are
-  // forgotten.
+  // Processes a picture; call it in the order of the pictures' times. If the camera has moved by
+  // more than kMoved_m, all earlier pictures are forgotten.
   void look(const StatedPicture& picture);
-  // Call it when the station's heading or reference has changed or is in doubt.
+  // Forgets all pictures. Call it when the station's heading or reference has changed or is in
+  // doubt.
   void forget();
 
   // nullopt while too little of the skyline has been seen.
   const std::optional<SkylineHeading>& heading() const { return heading_; }
-  // 1-sigma of the difference between the heading that the skyline shows and the heading that the
+  // 1-sigma of the difference between the heading according to the skyline and the heading that the
   // station states.
   double difference_sd_rad() const;
   bool disagrees() const { return disagrees_; }
   // Each column as it was seen last; empty before anything is seen. A column that disagrees with
-  // the land counts only once kPictures have shown it at the same elevation over kApart_s. It
-  // counts until a picture shows the land there, or for kKept_s.
+  // the land is included only after kPictures pictures have shown it at the same elevation, to
+  // within kSame_rad, over at least kApart_s. It is removed when a picture shows the land there, or
+  // when it has not been seen for kKept_s.
   const HidingSkyline& hiding() const { return hiding_; }
-  // Continues an earlier skyline as soon as a picture is taken at the place where it was seen.
+  // Continues `earlier`, a saved skyline, as soon as a picture is taken at the place from which
+  // that skyline was seen.
   void resume(HidingSkyline earlier) { earlier_ = std::move(earlier); }
 
-  // The heading is wrong, or the land does not fit the station; empty if neither.
+  // The alarm that the heading is wrong, or that the land does not fit the station's position;
+  // empty otherwise.
   Alarm alarm() const;
 
   static constexpr double kMoved_m = 5.0;
-  // While the land does not fit, a new place is tried sooner, because the first fix may have been
-  // wrong.
+  // While the land does not fit, a new map is tried already after this distance, because the first
+  // position fix may have been wrong.
   static constexpr double kAgain_m = 0.5;
-  // The edge of a cloud moves within kApart_s.
+  // The edge of a cloud moves by more than kSame_rad within kApart_s.
   static constexpr int kPictures = 3;
   static constexpr double kApart_s = 120.0, kSame_rad = radians(0.2);
   static constexpr double kKept_s = 86'400.0;
@@ -90,18 +95,20 @@ class SkylineWatch {
 
   std::shared_ptr<const land::Surface> surface_;
   land::HorizonMapConfig config_;
-  // The stated place for which the map was made or, without a map, tried last.
+  // The stated place for which the map was made or, if there is no map, tried last.
   std::optional<Eigen::Vector3d> place_ecef_;
   std::optional<land::HorizonMap> map_;
   std::string why_none_;
-  double model_sd_m_ = 0.0;  // of the model as a whole
+  double model_sd_m_ = 0.0;  // 1-sigma of a shift of the whole model of the land
   SeenHorizon seen_;
-  SeenHorizon obstacles_{kSame_rad};  // as above, but searched farther from the map's skyline
+  // Like seen_, but from a search farther from the map's skyline.
+  SeenHorizon obstacles_{kSame_rad};
   HidingSkyline hiding_;
-  std::map<int, double> disagreed_s_;  // when the columns that disagree were seen last
+  // When each column that disagrees with the land was last seen.
+  std::map<int, double> disagreed_s_;
   std::optional<HidingSkyline> earlier_;
   std::optional<SkylineHeading> heading_;
-  double stated_sd_rad_ = 0.0;  // of the azimuths from which `heading_` comes
+  double stated_sd_rad_ = 0.0;  // stated 1-sigma of the azimuths from which `heading_` was computed
   bool disagrees_ = false;
 };
 
