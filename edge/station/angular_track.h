@@ -1,6 +1,6 @@
-// The target's motion as one station sees it, in PTU angles: a constant-velocity Kalman filter for
-// each axis. It provides the servo's feed-forward, and predicts the target through short gaps.
-// Pure.
+// Estimates the target's motion as one station sees it, in PTU angles, with a constant-velocity
+// Kalman filter for each axis. The result is the servo's feed-forward, and predicts the target
+// through short gaps.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ class AngularTrack {
  public:
   struct Config {
     double acceleration_sd_rad_s2 =
-        0.15;  // spectral root of the white acceleration [rad/s^2/sqrt(Hz)]
+        0.15;  // square root of the spectral density of the white acceleration [rad/s^2/sqrt(Hz)]
     double initial_rate_sd_rad_s = 0.3;
     double measurement_sd_floor_rad = 2e-5;
   };
@@ -26,8 +26,8 @@ class AngularTrack {
 
   explicit AngularTrack(const Config& config) : config_(config) {}
 
-  // `angles`: the PTU angles that would put the target on the optical axis, with their 1-sigma. An
-  // update that is not later than the last one is ignored.
+  // `angles`: the PTU angles that would put the target on the optical axis; `sd_rad`: their
+  // 1-sigma. An update that is not later than the last one is ignored.
   void update(double time_s, const PanTilt& angles, double sd_rad);
   void clear() { state_.reset(); }
 

@@ -1,5 +1,5 @@
-// The borders of the region in which a unit may point, as directions: the border of its travel, and
-// of each keep-out region. They are drawn on the map and in pictures. Pure.
+// Computes the directions that bound the region in which a unit may point: the borders of its
+// travel, and of each keep-out region. They are drawn on the map and in pictures. Without state.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@ namespace ols::station {
 inline constexpr int kBorderPoints = 16;
 
 struct Border {
-  bool is_keep_out = false;  // true: the inside is forbidden; false: the outside is
-  // Directions of the optical axis once around the region, starting at its smallest pan and tilt:
-  // four on each side.
+  bool is_keep_out = false;  // true: the inside is forbidden; false: the outside is forbidden
+  // Directions of the optical axis, once around the region, four on each side. The first has the
+  // region's smallest pan and tilt.
   std::array<AzimuthElevation, kBorderPoints> outline;
 };
 
-// First the travel, if it is known and not empty; then, for each keep-out region, the part inside
-// the travel.
+// The first border is that of the travel, if it is known and not empty. Then follows, for each
+// keep-out region, the border of the part that is inside the travel.
 std::vector<Border> borders(const ChainParameters& chain, const mount::Limits& limits,
                             bool is_travel_known);
 

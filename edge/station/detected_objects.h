@@ -1,5 +1,5 @@
-// Chooses the pictures that a station's detector looks at, and handles the objects that it finds.
-// Pure.
+// Chooses the pictures that a station's detector processes, and handles the objects that the
+// detector finds.
 #pragma once
 
 #include <cstdint>
@@ -17,43 +17,44 @@
 
 namespace ols::station {
 
-// The station's own target in a frame.
+// The target that the station follows, in one frame.
 struct FollowedBox {
   cv::Rect2d box;
   std::int64_t track_id = 0;
 };
 
-// It passes one picture at a time to the detector. When the result of a picture has arrived, the
-// newest picture follows; pictures that were due in between are dropped and counted.
+// Passes one picture at a time to the detector. When the result of a picture has arrived, the
+// newest picture is next. Pictures that were due in between are dropped and counted.
 class DetectedObjects {
  public:
   explicit DetectedObjects(const StationConfig& config)
       : config_(config.detection), angle_wait_s_(config.angle_wait_s) {}
 
-  // Takes a frame. Call it only while the mount's angles are trusted. `followed`: the station's own
-  // target, if the frame gives a bearing of that target.
+  // Takes a frame. Call it only while the mount's angles are trusted. `followed`: the target that
+  // the station follows, if this frame gives a bearing of it.
   void on_frame(const camera::Frame& frame, const std::optional<FollowedBox>& followed,
                 double now_s);
-  // The next picture for the detector, with the mount's motion and, if stars show, with theirs. The
-  // motion needs the mount's angles before and after the exposure. nullopt if no picture is due, or
-  // if those angles have not arrived yet.
+  // The next picture for the detector, with the motion according to the mount's angles and, if
+  // `stars_show`, with the stars' motion. This needs the mount's angles before and after the
+  // exposure. nullopt if no picture is due, or if these angles have not arrived yet.
   std::optional<detector::Picture> take(const PointingModel& pointing, double now_s,
                                         bool stars_show = false);
-  // Takes the result of the last picture. Returns the pixels that become bearings: those of the
-  // likeliest confirmed objects in the picture, except the followed target. `new_track_id` returns
-  // an id that no other object of this station has.
+  // Takes the detector's result for the last picture. Returns the pixels of the likeliest confirmed
+  // objects in the picture, except the followed target; they become bearings. `new_track_id`:
+  // returns an id that no other object of this station has.
   std::vector<PixelMeasurement> on_found(detector::Found found,
                                          const std::function<std::int64_t()>& new_track_id,
                                          double now_s);
-  // The frame that the detector looks at; null if there is none, or if its angles were forgotten.
+  // The frame that the detector is processing; null if there is none, or if forget_angles() has
+  // been called since.
   const camera::Frame* looks_at() const {
     return looks_ && !looks_->forgotten ? &looks_->frame : nullptr;
   }
-  // What the newest picture shows of the followed target; returned once for each picture. nullopt
-  // if it shows nothing, or if the target followed in that picture had another id. The size changes
-  // with a bird's wings; the tracker's box does not.
+  // What the detector has measured of the followed target in its newest picture; returned once for
+  // each picture. nullopt if it found nothing there, or if the target followed in that picture had
+  // another id. This size follows a bird's wing beats; the tracker's box does not.
   std::optional<DetectedPixel> take_detection_of(std::int64_t track_id);
-  // Call when angles from now on are not comparable with earlier ones.
+  // Call when the mount's future angles cannot be compared with earlier ones.
   void forget_angles();
 
   // The newest result; nullopt before the first one and after forget_angles().
@@ -65,7 +66,7 @@ class DetectedObjects {
     camera::Frame frame;
     std::optional<FollowedBox> followed;
     double arrived_s = 0.0;
-    bool forgotten = false;  // its angles were forgotten
+    bool forgotten = false;  // forget_angles() was called meanwhile
   };
   std::int64_t track_id(long tracklet, const std::function<std::int64_t()>& new_track_id);
   PixelMeasurement measured(const detector::Tracklet& tracklet, const Look& look) const;
@@ -73,13 +74,14 @@ class DetectedObjects {
 
   DetectionConfig config_;
   double angle_wait_s_;
-  double due_s_ = 0.0;  // the next frame exposed after this instant is for the detector
-  std::optional<Look> waiting_, looks_;  // the next picture; the picture being looked at
-  std::optional<double> looked_s_;       // mid-exposure of the last picture passed on
+  double due_s_ = 0.0;  // the first frame exposed after this time is due
+  // The next picture; the picture that the detector is processing.
+  std::optional<Look> waiting_, looks_;
+  std::optional<double> looked_s_;  // mid-exposure of the last picture passed to the detector
   std::optional<detector::Found> newest_;
   std::optional<DetectedPixel> of_followed_;  // not yet taken
   std::int64_t followed_id_ = 0;
-  std::map<long, std::int64_t> track_ids_;  // by the detector's own id
+  std::map<long, std::int64_t> track_ids_;  // maps the detector's ids to track_ids
   std::map<std::string, double> counters_;
 };
 

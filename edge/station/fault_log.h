@@ -1,5 +1,5 @@
-// The newest fault of a station, with its time. Both remain after the fault's alarm has ended. Also
-// collects journal entries about good and bad changes. Pure.
+// Keeps the newest fault of a station, with its time. Both remain after the fault's alarm has
+// ended. It also collects journal entries about changes for the better and for the worse.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,26 @@ namespace ols::station {
 
 class FaultLog {
  public:
-  // `what`: the current error of a source. `number`: number of errors of the source so far; a new
-  // number marks a new error even if the text is the same. A text that is repeated within a minute
-  // (from an absent device that is retried each second) counts as one fault, so that it does not
-  // hide others.
+  // `what`: the current error of a source. `number`: how many errors the source has had so far; a
+  // new number marks a new error even if its text is the same. If the same text comes again within
+  // a minute, it is not a new fault. Otherwise an absent device, which is retried each second,
+  // would hide other faults.
   void note(const std::string& source, const std::string& what, std::uint64_t number,
             std::int64_t utime_us);
-  // As note(), for the result of an operator's action. Each one is a new fault.
+  // Like note(), for the failure of an operator's action. Each failure is a new fault.
   void note_event(const std::string& source, const std::string& what, std::uint64_t number,
                   std::int64_t utime_us);
-  // Notes an error that does not count, because the device is only starting.
+  // Ignores an error, because the device is only starting: note() will then not report it.
   void pass_over(const std::string& source, const std::string& what, std::uint64_t number,
                  std::int64_t utime_us) {
     noted_[source] = {what, number, utime_us};
   }
-  // Takes the present alarms. A new alarm is a fault. A changed number ("silent for 5 s") does not
-  // make an alarm new.
+  // Takes the present alarms. A new alarm is a fault. An alarm whose number changes ("silent for 5
+  // s") is not a new one.
   void note_alarms(const std::vector<Alarm>& alarms, std::int64_t utime_us);
 
-  // The state of a source that always has one. A change of state makes an entry; a change of
-  // `details` does not.
+  // The state of a source. A change of `name` makes a journal entry; a change of `details` alone
+  // does not.
   struct State {
     std::string name, details;
     bool bad = false;
@@ -43,7 +43,7 @@ class FaultLog {
   };
   void note_state(const std::string& source, const State& state);
 
-  // The entries since the last call (conditions that began or ended), in order.
+  // The entries since the last call, in order: conditions that began or ended.
   std::vector<News> take_event() { return std::exchange(news_, {}); }
 
   const std::string& text() const { return text_; }  // empty if there was no fault
@@ -59,7 +59,7 @@ class FaultLog {
 
   std::map<std::string, Noted> noted_;
   AlarmChanges alarms_;
-  std::map<std::string, std::string> states_;  // for each source
+  std::map<std::string, std::string> states_;  // the last state of each source, by name
   std::vector<News> news_;
   std::string text_;
   std::int64_t utime_us_ = 0;

@@ -1,6 +1,6 @@
-// The target that the station's tracker follows: either the operator designated it, or it was
-// acquired along a slew. An acquired target is on trial until the tracker believes in it. During a
-// trial the station's own target is set aside.
+// The target that the station's tracker follows: either the operator designated it, or the station
+// acquired it along a slew. An acquired target is on trial until the tracker believes in it. During
+// a trial, the station's previous target (its own target) is set aside.
 #pragma once
 
 #include <cstdint>
@@ -23,24 +23,26 @@ class FollowedTarget {
 
   // Starts to follow the object in the box. If the tracker refuses it, nothing changes.
   std::optional<tracker::TrackerError> designate(const camera::Frame& frame, const cv::Rect2d& box);
-  // Starts a trial with the object in the box; the own target is set aside.
+  // Starts a trial with the object in the box, and sets the own target aside. False if the tracker
+  // refuses the object; nothing changes then.
   bool try_found(const camera::Frame& frame, const cv::Rect2d& box);
-  // Ends a trial with success: its target becomes the own target.
+  // Ends a trial successfully: the target on trial becomes the own target.
   void confirm();
   enum class Dropped { kNothing, kBackToOwn, kNothingLeft };
-  // Ends a trial that takes too long. Returns what happened.
+  // Ends a trial after one second without confirm(). Returns what happened.
   Dropped drop_unproven(double time_s);
 
-  // nullopt if the tracker refused the frame. The predicted motion is computed from the PTU's
-  // angles.
+  // Passes the frame to the tracker, with the motion predicted from the PTU's angles. nullopt if
+  // the tracker refuses the frame.
   std::optional<tracker::TrackerOutput> track(const camera::Frame& frame,
                                               const PointingModel& pointing);
   void search_near(const Eigen::Vector2d& pixel, double sd_px) {
     tracker_->search_near(pixel, sd_px);
   }
-  // Forgets the target if it has this id, also one that is set aside. False if it has another.
+  // Forgets the target with this id, even if it is set aside. False if the target that is tracked
+  // has another id.
   bool let_go(std::int64_t track_id);
-  // Call when PTU angles from now on are not comparable with earlier ones.
+  // Call when future PTU angles cannot be compared with earlier ones.
   void forget_angles();
 
   bool exists() const { return kind_ != Kind::kNone; }
@@ -49,12 +51,13 @@ class FollowedTarget {
   std::int64_t track_id() const { return track_id_; }
   // A new id for another object of this station; no two objects share an id.
   std::int64_t new_track_id() { return ++last_track_id_; }
-  // 1-sigma of the box's centre on the target in the newest frame. The centre is a point fixed on
-  // the target, so its distance from the target's middle grows in the image as the target does.
+  // 1-sigma [px] of the offset between the box's centre and the target's middle in the newest
+  // frame. The centre is a fixed point of the target. Therefore, the offset grows in the image in
+  // proportion to the target.
   double centring_sd_px() const;
   const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
-  // Mid-exposure of the frame that the tracker processed last; nullopt if it is not comparable with
-  // later ones.
+  // Mid-exposure of the frame that the tracker processed last; nullopt if the PTU's angles at that
+  // time cannot be compared with later ones.
   const std::optional<double>& tracked_s() const { return tracked_s_; }
   // The tracker's result for exactly this frame; null if it has not processed this frame.
   const tracker::TrackerOutput* output_of(double mid_exposure_s) const {
@@ -66,7 +69,7 @@ class FollowedTarget {
 
  private:
   enum class Kind { kNone, kDesignated, kUnproven, kAcquired };
-  struct Own {  // the station's own target, while set aside
+  struct Own {  // the station's own target while it is set aside
     Kind kind = Kind::kNone;
     std::int64_t track_id = 0;
     std::optional<double> tracked_s;
@@ -80,8 +83,8 @@ class FollowedTarget {
   Kind kind_ = Kind::kNone;
   std::int64_t track_id_ = 0, last_track_id_ = 0;
   std::optional<double> tracked_s_;  // mid-exposure of the last tracked frame
-  double first_size_px_ = 0.0;       // of the box with which the target began
-  double found_s_ = 0.0;             // mid-exposure of the frame in which the trial began
+  double first_size_px_ = 0.0;  // size of the box in which the target was designated or acquired
+  double found_s_ = 0.0;        // mid-exposure of the frame in which the trial began
   std::optional<Own> own_;
   std::optional<tracker::TrackerOutput> last_output_;
   int disagreeing_in_a_row_ = 0;

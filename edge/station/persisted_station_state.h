@@ -1,6 +1,6 @@
-// The last state of a station, saved over a restart or a power failure: whether the station was
-// permitted to move, and whether its PTU's reference was in doubt. If the state is unknown, the
-// station starts stopped, with its reference in doubt, and raises an alarm.
+// Saves the state of a station, so that it survives a restart or a power failure: whether the
+// station was permitted to move, and whether its PTU's reference was in doubt. If the saved state
+// is unknown, the station starts stopped, with its reference in doubt, and raises an alarm.
 #pragma once
 
 #include <optional>
@@ -16,22 +16,23 @@ namespace ols::station {
 
 class PersistedStationState {
  public:
-  // Reads the files ID.hold and ID.doubt in `folder`. If `folder` is empty, nothing is saved, so
-  // the state is unknown. `has_stop`: the station has an emergency stop, so a damaged file may have
-  // recorded an emergency.
+  // Reads the files ID.hold and ID.doubt in `folder`. If `folder` is empty, nothing is saved, and
+  // the state is unknown. `has_stop`: the station has an emergency stop. If the file is then
+  // damaged, it may have recorded an emergency, and the station starts in kEmergency.
   PersistedStationState(const std::string& folder, const std::string& id, bool has_stop);
 
   // The state at the start: kIdle, kStopped or kEmergency.
   StationState begin() const { return begin_; }
-  // The doubt about the PTU's reference when the previous process ended.
+  // The doubt about the PTU's reference when the previous process ended; nullopt if there was none.
   const std::optional<mount::ReferenceDoubt>& doubt() const { return begin_doubt_; }
 
-  // Call in every turn with the present state, which is then saved. It does not wait for the disk.
-  // When the station leaves its first state, a person has acted, so the state is no longer unknown.
+  // Saves the present state, without waiting for the disk. Call it in each cycle of the station.
+  // When the station leaves its first state, a person has acted; from then on, the state is no
+  // longer unknown.
   void remember(StationState state, const std::optional<mount::ReferenceDoubt>& doubt,
                 mount::Reference reference);
 
-  // Alarms: what is unknown or cannot be saved, and what to do about it.
+  // The alarms say what is unknown or cannot be saved, and what to do about it.
   std::vector<Alarm> alarms() const;
 
  private:
@@ -42,8 +43,8 @@ class PersistedStationState {
   bool hold_unknown_ = false, doubt_unknown_ = false;
 };
 
-// Whether the operator or the emergency stop holds the station. If so, the station starts stopped
-// next time.
+// Whether the operator or the emergency stop holds the station in this state. If so, the station
+// does not move by itself after its next start.
 bool is_held(StationState state);
 
 }  // namespace ols::station

@@ -1,7 +1,6 @@
-// The decisions of a station, without devices, clocks or messages. They concern designation,
-// tracking, coasting, loss, slews, manual control, stops and emergencies. Times are on the
-// station's monotonic clock [s]. There is one instance for each station; it is called from one
-// thread.
+// Makes the decisions of a station about designation, tracking, coasting, loss, slews, manual
+// control, stops and emergencies. It uses no devices, clocks or messages. Times are on the
+// station's monotonic clock [s]. There is one instance for each station, called from one thread.
 #pragma once
 
 #include <algorithm>
@@ -37,101 +36,106 @@
 
 namespace ols::station {
 
-// Commands to the PTU besides its goal, and commands to the lens.
+// Commands to the PTU, in addition to its goal, and to the lens.
 struct UnitActions {
-  bool stop = false;  // stops what the PTU does on its own, which is homing
+  bool stop = false;  // stop homing, the only motion that the PTU makes without a goal
   bool home = false;
   bool reference_ok = false;  // a person confirms the reference
-  lens::LensOrder lens;       // for the motors of the lens
+  lens::LensOrder lens;       // commands to the motors of the lens
 };
 
 struct StationOutput {
-  std::vector<Bearing> bearings;     // those whose PTU angles are known
-  std::optional<mount::Goal> goal;   // the PTU's goal; nullopt means halt,
-  std::optional<mount::Goal> watch;  // or where to look if nothing else uses the unit
+  std::vector<Bearing> bearings;     // bearings whose PTU angles have become known
+  std::optional<mount::Goal> goal;   // the PTU's goal; nullopt means halt
+  std::optional<mount::Goal> watch;  // goal for the PTU if nothing else uses it
 };
 
 class Station {
  public:
   Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker);
 
-  // Inputs. Samples must be in order of time, and so must frames.
+  // Inputs. Angle samples must be in the order of their times; so must frames.
   void on_angles(const mount::AngleSample& sample);
   void on_frame(const camera::Frame& frame) {
     on_frame(frame, std::max(now_s_, frame.mid_exposure_s));
   }
-  // For a motorised lens: each zoom position that it reports, and the present positions of all its
-  // axes.
+  // For a motorised lens. on_zoom() takes each zoom position that the lens reports; set_lens()
+  // takes the present positions of all its axes.
   void on_zoom(const lens::ZoomSample& sample) { pointing_.add(sample); }
   void set_lens(const lens::ByAxis<std::optional<double>>& positions) {
     pointing_.set_lens(positions);
   }
-  // A frame that is older than max_age_s at now_s is dropped, so that the tracker has no backlog.
+  // A frame that is older than `max_age_s` (StationConfig) at now_s is dropped, so that no backlog
+  // arises.
   void on_frame(const camera::Frame& frame, double now_s);
-  // For the detector, if there is one: picture_to_search() returns the picture that the detector is
-  // to process, one at a time; on_found() then takes what was found in it. Pictures are provided in
-  // every state, as long as the mount's angles are trusted. `stars_show`: whether it is night.
+  // For the detector, if there is one. picture_to_search() returns the next picture for the
+  // detector, one at a time; on_found() then takes the detector's result. Pictures are provided in
+  // every state of the station, as long as the mount's angles are trusted. `stars_show`: it is
+  // night.
   std::optional<detector::Picture> picture_to_search(double now_s, bool stars_show = false) {
     return detected_.take(pointing_, now_s, stars_show);
   }
   void on_found(detector::Found found);
   // Sets the PTU's travel limits, once they are known.
   void set_limits(const mount::Limits& limits) { pointing_.set_limits(limits); }
-  // Changes the geometry while the station runs, with or without a calibration. Everything measured
-  // with the previous geometry is forgotten.
+  // Changes the geometry while the station runs. Everything that was measured with the previous
+  // geometry is forgotten. `calibration`: the calibration from which the geometry comes, if any.
   void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
-  // Call if the reference views have moved by this much; bearings then include it in their errors.
+  // Call if the reference views have moved by this much. Bearings from then on include this error.
   void doubt_setup(double heading_sd_rad, double tilt_sd_rad) {
     pointing_.doubt_setup(heading_sd_rad, tilt_sd_rad);
     ++setup_revision_;
   }
-  // Sets whether the PTU's reference is valid. While it is in doubt, the station neither points nor
-  // follows slews, and discards angles. It keeps its target, and slews lead back to it later.
+  // Sets whether the PTU's reference is valid. While the reference is missing or in doubt, the
+  // station neither points nor follows slews, and discards angles. It keeps its target; later,
+  // slews can lead the station back to the target.
   void set_reference(mount::Reference reference);
-  // Before the first call, the pose is that of the configured geometry. Without a position the
-  // station makes no bearings.
+  // Until the first call, the pose is that of the configured geometry. Without a position, the
+  // station sends no bearings.
   void set_pose(const sensors::StationPose& pose) { pointing_.set_pose(pose); }
-  // Takes the level of the emergency stop; call it even if the level is unchanged. After a press,
-  // nothing moves until the stop is released, rearm() was accepted, and a new command has arrived.
+  // Takes the level of the emergency stop's input. Call it even if the level has not changed. After
+  // a press, nothing moves until three things have happened: the stop has been released, rearm()
+  // has been accepted, and a new command has arrived.
   void emergency_stop(bool pressed, double now_s);
 
   // Commands. A refused command changes nothing but its counter.
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
-  // Takes a prediction that the land hides the target, or that it no longer does. While the
-  // prediction holds, a target that is not seen counts as hidden: the mount waits where the target
-  // comes out.
+  // Takes a prediction that the land hides the target, or that the land no longer hides it. While
+  // the prediction is valid, a target that is not seen counts as hidden. The mount then waits where
+  // the target will reappear.
   Refusal occlude(const OcclusionCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
-  // Like point(), but points at what is at a pixel.
+  // Like point(), but the goal is the direction of a pixel.
   Refusal centre(const CentreCommand& command, double now_s);
-  // Moves the lens, at any time, even during a stop.
+  // Moves the lens. This is permitted at any time, even during a stop.
   Refusal lens(const LensCommand& command, double now_s);
   // Turns the unit for the command's lease; rates of zero halt it.
   Refusal rate(const RateCommand& command, double now_s);
-  // It also ends homing (see UnitActions). For kStopHold_s only re-arming is accepted afterwards: a
-  // command that was sent before the stop, or crossed it on the wire, must not undo it.
+  // Stops the unit, and ends homing (see UnitActions). During the next kStopHold_s, only re-arming
+  // is accepted: a command that was sent before the stop, or at the same time, must not undo the
+  // stop.
   void stop(double now_s);
-  // For a station that was stopped when its previous process ended: like stop(), but the operator
-  // may continue at once.
+  // For a station that was stopped when its previous process ended. It differs from stop() in that
+  // commands are accepted at once.
   void begin_stopped();
   static constexpr double kStopHold_s = StationMode::kStopHold_s;
   Refusal release(double now_s);
-  // Re-arms after an emergency stop, on behalf of a person at the station. The state becomes
-  // kStopped, from which the operator can continue.
+  // Re-arms after an emergency stop; call it when a person at the station has asked for it. The
+  // state becomes kStopped, from which the operator can continue.
   Refusal rearm(double now_s);
-  // Re-arms on a command from the bus, which any program can send. It is refused unless the
-  // configuration permits it.
+  // Re-arms on a command from the bus. It is refused unless the configuration permits it, because
+  // any program can send such a command.
   Refusal rearm_over_bus(double now_s);
   // Homes the unit.
   Refusal home(double now_s);
   // A person confirms the unit's reference.
   Refusal reference_ok(double now_s);
-  // The commands to the PTU and the lens that are due; each is returned once. Call it right after
-  // the commands and before step(), so that a stop does not wait for the tracker.
+  // Returns the pending commands to the PTU and the lens, each once. Call it after the commands
+  // above and before step(), so that a stop does not wait for the tracker.
   UnitActions take_actions() { return std::exchange(actions_, {}); }
 
-  // Advances time: leases and coasting end, and times in states are counted.
+  // Advances time: ends leases and coasting that have expired, and counts the time in each state.
   StationOutput step(double now_s);
 
   // The PTU's goal; nullopt means halt.
@@ -143,14 +147,15 @@ class Station {
   const PointingModel& pointing() const { return pointing_; }
   std::optional<cv::Rect2d> target_box() const;  // in the newest frame
   StationSnapshot snapshot() const;
-  // The newest frame for a viewer, without its utime. nullopt if the frame with this mid-exposure
-  // was refused, so that the newest frame is another one.
+  // The newest frame for a viewer, without its utime. nullopt if the newest frame has another
+  // mid-exposure, because the expected one was refused.
   std::optional<video::VideoFrame> video_frame(double mid_exposure_s) const;
-  // A recent picture that may show the skyline of the land (skyline_picture.h); nullopt also while
-  // the mount's angles are not trusted.
+  // A recent picture that may show the skyline of the land (skyline_picture.h). nullopt if there is
+  // none, or while the mount's angles are not trusted.
   std::optional<skyline::StatedPicture> skyline_picture() const;
-  // Grows when directions before and after are not comparable, or when the setup comes into doubt:
-  // another geometry, moved reference views, a missing or doubted reference of the mount.
+  // Is incremented when later directions cannot be compared with earlier ones, or when the setup
+  // comes into doubt. Causes are another geometry, moved reference views, and a missing or doubted
+  // reference of the mount.
   int setup_revision() const { return setup_revision_; }
 
  private:
@@ -171,9 +176,10 @@ class Station {
   bool follows_now() const {
     return mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting);
   }
-  // What a station does whose target is not seen.
+  // The state of a station that does not see its target.
   StationState without_target() const;
-  // The slew that the station follows meanwhile.
+  // The slew that the station follows without seeing its target. For a hidden target, this is the
+  // predicted exit, if known.
   std::optional<SlewCommand> led_to() const;
   bool is_led() const { return mode_.is(StationState::kSlewed) || mode_.is(StationState::kHidden); }
   void track(const camera::Frame& frame);
@@ -201,7 +207,7 @@ class Station {
   UnitActions actions_;
   double believed_s_ = 0.0;      // mid-exposure of the last believed frame
   double last_belief_ = 0.0;     // its belief
-  double hidden_since_s_ = 0.0;  // while hidden: when that state began
+  double hidden_since_s_ = 0.0;  // start of the present state kHidden
   int believed_in_a_row_ = 0;
   double now_s_ = 0.0;
   int setup_revision_ = 0;

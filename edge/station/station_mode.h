@@ -1,5 +1,5 @@
-// What controls the unit: nothing, the operator, the tracked target, the fusion's slews, or a stop.
-// Pure.
+// The state of a station: what controls its unit (nothing, the operator, the tracked target, the
+// fusion's slews, or a stop).
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ class StationMode {
 
   StationState state() const { return state_; }
   bool is(StationState state) const { return state_ == state; }
-  // Enters a state. Returns false if it is already the present one.
+  // Enters a state. Returns false if the station is already in it.
   bool enter(StationState state);
   // Whether a target, if there is one, is tracked in the present state.
   bool may_track() const;
@@ -27,10 +27,11 @@ class StationMode {
   // Sets the emergency stop's level.
   void set_pressed(bool pressed) { pressed_ = pressed; }
   bool is_pressed() const { return pressed_; }
-  // For this long after a stop only re-arming is accepted.
+  // After a stop, only re-arming is accepted for this time.
   static constexpr double kStopHold_s = 1.0;
   void note_stop(double now_s) { stopped_s_ = now_s; }
-  // Why operators' commands are refused at present: an emergency, or a stop a moment ago.
+  // Why operators' commands are refused at present: an emergency, or a stop within the last
+  // kStopHold_s. kNone if they are accepted.
   Refusal refuses_operator(double now_s) const;
 
   // Sets whether the PTU's reference is valid.

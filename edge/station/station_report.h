@@ -1,4 +1,4 @@
-// The content of a station's status message. Pure.
+// The content of a station's status message.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,8 @@ struct StationReport {
 // The alarms of the report and of its devices, without duplicates.
 std::vector<Alarm> all_alarms(const StationReport& report);
 
-// One line for a person: the state, devices that are not OK, the first alarm.
+// One line for a person: the state, the devices that are not OK, the first alarm, and the number of
+// further alarms.
 std::string in_one_line(const StationReport& report);
 
 }  // namespace ols::station

@@ -1,4 +1,4 @@
-// Makes the station's summary for status messages, and the frame for viewers. Pure.
+// Makes the station's summary for status messages, and the frame for viewers. Without state.
 #pragma once
 
 #include "edge/camera/frame.h"
@@ -26,7 +26,7 @@ StationSnapshot snapshot_of(const StationParts& parts);
 // A frame for a viewer; its utime is not set.
 video::VideoFrame seen_in(const camera::Frame& frame, const StationParts& parts);
 
-// Adds an accepted command to the orders that have not been sent to the lens yet.
+// Adds an accepted command to `orders`, which have not been sent to the lens yet.
 void add(const LensCommand& command, lens::LensOrder& orders);
 
 }  // namespace ols::station
