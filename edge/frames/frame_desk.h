@@ -1,5 +1,5 @@
-// Makes the outputs that contain the unit's counts: sightings and requested frames. Handles a frame
-// from the request to the parts that fit into datagrams.
+// Makes the two outputs that contain the unit's counts: sightings, and frames on request. Requested
+// frames are encoded and divided into parts that fit into datagrams.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace ols::station {
 
 struct FramePart {
   std::shared_ptr<const EncodedFrame> frame;
-  // Mid-exposure; it is the same in all parts, so that they can be joined.
+  // UTC of mid-exposure. It is the same in all parts of a frame, so that a receiver can join them.
   std::int64_t utime_us = 0;
   std::size_t part = 0, parts = 0;
   std::size_t first_byte = 0, bytes = 0;
@@ -26,14 +26,16 @@ struct FramePart {
 
 class FrameDesk {
  public:
-  // Below 65 000, which leaves space for the header.
+  // A datagram has at most about 65 000 bytes; the rest is for the header.
   static constexpr std::size_t kPart_bytes = 60000;
 
   FrameService& service() { return service_; }
-  // Passes completed frames on to the encoder; never waits.
+  // Passes frames that answer a request to the encoder, and divides the next encoded frame into
+  // parts. Never waits.
   void look(const clock::ClockPair& now, const PointingModel& unit);
+  // The next part to be sent; nullopt if there is none.
   std::optional<FramePart> next();
-  // Call in order of time. Returns the sightings that are to be published now.
+  // Call in the order of the bearings' times. Returns the sightings that are to be published now.
   std::vector<Sighting> sightings(const Bearing& bearing, std::int64_t utime_us,
                                   const PointingModel& unit) {
     return sightings_.take(bearing, utime_us, unit);

@@ -1,5 +1,5 @@
-// Encodes requested frames as picture files in its own thread: an encoder takes tens of
-// milliseconds, for which the control loop must not wait.
+// Encodes requested frames as picture files, in its own thread. An encoder takes tens of
+// milliseconds, and the control loop must not wait for it.
 #pragma once
 
 #include <condition_variable>

@@ -1,5 +1,5 @@
 // Provides full-resolution frames for a calibration, on request. Each frame comes with the unit's
-// readings at its exposure, and is taken once the unit stands as requested. Pure.
+// readings at its exposure. It is the first frame for which the unit stands as requested.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@
 namespace ols::station {
 
 struct FrameRequest {
-  std::int64_t boot_id = 0, sequence = 0;  // id of the request
-  std::optional<PanTilt> at;               // reported angles; nullopt: wherever the unit stands
+  std::int64_t boot_id = 0, sequence = 0;  // they identify the request
+  std::optional<PanTilt> at;               // requested reported angles; nullopt means any angles
   double tolerance_rad = 0.0;
-  // How long the unit must have stood still at mid-exposure; 0 if it may move.
+  // How long the unit must have been at rest before mid-exposure; 0 means that it may move.
   double still_s = 0.0;
   bool lossless = true;
   double expires_s = 0.0;  // on the station's monotonic clock
@@ -35,10 +35,11 @@ class FrameService {
   // Returns why the request is refused; empty if it is accepted. Each sender has one request at a
   // time; a newer one replaces it.
   std::string request(const FrameRequest& wanted);
-  // Call in order of time.
+  // Call in the order of the frames' times.
   void on_frame(const camera::Frame& frame);
 
-  // The answers that are complete: the unit has reported angles before and after the exposure.
+  // The frames that answer a request, once the unit has reported angles before and after their
+  // exposure. Requests that have expired are dropped.
   std::vector<RequestedFrame> take(double now_s, const PointingModel& unit);
 
  private:

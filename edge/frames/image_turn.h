@@ -1,4 +1,4 @@
-// Converts the motion that two images show to a turn of the mount. Pure.
+// Converts the motion between two images to a turn of the mount. Without state.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ struct ImageTurn {
   PanTilt sd;    // [rad] 1-sigma
 };
 
-// `angles`: of the mount in the earlier image, roughly. The scene is assumed to be far away and at
-// rest. nullopt if no pan and tilt cause that motion.
+// `angles`: the mount's approximate angles at the earlier image. The scene is assumed to be far
+// away and at rest. nullopt if no turn in pan and tilt causes this motion.
 std::optional<ImageTurn> image_turn(const ChainParameters& chain, const CameraIntrinsics& camera,
                                     const PanTilt& angles, const tracker::ImageMotion& motion);
 

@@ -1,5 +1,5 @@
-// Converts between directions and PTU angles. It uses the station's position and tilt, the unit's
-// reported angles, its calibrated errors, and its travel limits. Pure.
+// Converts between directions and PTU angles. It uses the station's position and tilt, and the
+// unit's reported angles, calibrated errors and travel limits.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,18 +21,19 @@ namespace ols::station {
 
 // The unit's state at one instant.
 struct UnitAngles {
-  PanTilt angles;  // for the chain; for a calibrated unit, corrected for its errors
+  PanTilt angles;  // angles of the kinematic chain; for a calibrated unit, corrected for its errors
   PanTilt reported;
-  PanTilt rate;                                                  // [rad/s]
-  Eigen::Matrix2d covariance;                                    // [rad^2] (pan, tilt), white
-  Eigen::Matrix2d lasting_covariance = Eigen::Matrix2d::Zero();  // [rad^2] the same in every frame
-  bool interpolated = false;  // false if the instant is after the newest sample
+  PanTilt rate;                // [rad/s]
+  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt), white part
+  // [rad^2] of errors that are the same in every frame.
+  Eigen::Matrix2d lasting_covariance = Eigen::Matrix2d::Zero();
+  bool interpolated = false;  // false if the time is after the newest sample
   UnitReading reading;        // set for a calibrated unit
   double time_s = 0.0;
 };
 
-// "Reported" angles are the unit's own: its samples, goals and limits use them. All other angles
-// belong to the kinematic chain. Without a calibration the two are the same.
+// Reported angles are the unit's own; its samples, goals and limits use them. All other angles are
+// those of the kinematic chain. Without a calibration, the two are the same.
 class PointingModel {
  public:
   // Until set_pose(), the pose is the configured one.
@@ -40,11 +41,11 @@ class PointingModel {
 
   void set_pose(const sensors::StationPose& pose);
   void set_limits(const mount::Limits& limits);
-  // Call in order of time.
+  // Adds a sample; call it in order of time.
   void add(const mount::AngleSample& sample);
-  // Takes the motion that a frame shows since an earlier one, exposed at from_s.
+  // Adds the motion from an earlier frame, exposed at `from_s`, to `frame`.
   void add(const tracker::ImageMotion& motion, double from_s, const camera::Frame& frame);
-  // Takes a zoom position of a motorised lens. geometry() contains the camera at the newest
+  // Adds a zoom position of a motorised lens. geometry() contains the camera at the newest
   // position.
   void add(const lens::ZoomSample& sample);
   void set_lens(const lens::ByAxis<std::optional<double>>& positions) { lens_ = positions; }
@@ -52,24 +53,25 @@ class PointingModel {
   // Discards all earlier angles. Call it when the unit's zero may have changed.
   void forget_angles();
 
-  // Uses this geometry from now on, with or without a calibration. The pose becomes that of the
-  // geometry.
+  // Uses this geometry from now on. The pose becomes that of the geometry. `calibration`: the
+  // calibration from which the geometry comes, if any.
   void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
-  // Adds these errors to those of the calibration's setup. This has no effect without a
-  // calibration.
+  // Adds these errors to those of the calibration's setup. Without a calibration, this has no
+  // effect.
   void doubt_setup(double heading_sd_rad, double tilt_sd_rad);
-  // Whether a calibration is in use. It is not in use while the size of the unit's counts differs
+  // Whether a calibration is in use. It is not used while the size of the unit's counts differs
   // from the calibrated one.
   bool calibrated() const { return unit_ && unit_->fits(); }
 
   // The geometry with the present pose.
   const StationGeometry& geometry() const { return geometry_; }
   const sensors::StationPose& pose() const { return pose_; }
-  // Incremented when the pose has changed by more than its sigmas; 0 while it is the configured
-  // one.
+  // Is incremented when the pose changes by more than its sigmas, or when geometry or setup change;
+  // 0 until then.
   std::int64_t pose_revision() const { return pose_revision_; }
 
-  // `stamp_sd_s`: 1-sigma of an instant that is a picture's stamp; the covariance includes it.
+  // The unit's state at a time. `stamp_sd_s`: 1-sigma of this time, if it is the time stamp of a
+  // picture; the covariance includes its effect.
   std::optional<UnitAngles> angles_at(double time_s, double stamp_sd_s = 0.0) const;
   // nullopt if the unit has not reported angles before and after the instant, or the size of its
   // counts.
@@ -81,33 +83,34 @@ class PointingModel {
     const auto newest = newest_angles();
     return newest ? std::optional(newest->angles) : std::nullopt;
   }
-  // The camera's position and direction with these angles; nullopt if the zoom is not known.
+  // The camera's position and direction with these angles; nullopt if the zoom is unknown.
   std::optional<video::CameraView> camera_at(const UnitAngles& unit) const;
-  // The camera with its deviations at an instant; nullopt if the zoom is not known.
+  // The camera at a time, with its standard deviations; nullopt if the zoom is unknown.
   std::optional<ZoomPoint> zoom_at(double time_s) const;
-  // Whether the zoom stood still at an instant, as a lens without a motor always does; nullopt if
-  // its positions before and after are not known.
+  // Whether the zoom was at rest at a time; always true for a lens without a motor. nullopt if its
+  // positions before and after that time are unknown.
   std::optional<bool> zoom_rests(double time_s) const {
     return zoom_ ? zoom_->rests_at(time_s) : std::optional(true);
   }
-  // The reported angles that bring a pixel of this instant to the middle of the picture. Travel
-  // limits are ignored.
+  // The reported angles that bring the object at a pixel, seen at this time, to the middle of the
+  // picture. Travel limits are ignored.
   std::optional<PanTilt> centring(const Eigen::Vector2d& pixel, double time_s) const;
-  // Maps pixels at one instant to pixels at another, for a scene at infinity, by the unit's reports
-  // alone.
+  // Maps pixels at one time to pixels at another, for a scene at infinity. It is computed from the
+  // unit's reported angles alone.
   std::optional<Eigen::Matrix3d> homography(double from_s, double to_s) const;
-  // Maps the pixel of a star at one instant to its pixel at another, by the unit's reports and the
-  // earth's rotation.
+  // Maps the pixel of a star at one time to its pixel at another. It is computed from the unit's
+  // reported angles and the Earth's rotation.
   std::optional<Eigen::Matrix3d> star_motion(double from_s, double to_s) const;
   // The line of sight of a pixel, computed from the unit's angles and their covariance.
   std::optional<LineOfSight> sight(PixelSight pixel, const UnitAngles& unit) const;
-  // The pixel of a direction at infinity.
+  // The pixel at which an object at infinity in this direction appears.
   std::optional<Eigen::Vector2d> pixel_of(const PanTilt& angles,
                                           const AzimuthElevation& direction) const;
   bool in_picture(const Eigen::Vector2d& pixel) const;
 
-  // Converts reported angles to the angles of the same direction that the unit reaches by the
-  // shortest way, from its present position or from `here`. nullopt if the unit cannot point there.
+  // Several pan angles, a whole turn apart, have the same direction. These functions return those
+  // reported angles with the direction of `angles` that the unit reaches by the shortest way, from
+  // its present position or from `here`. nullopt if the unit cannot point there.
   std::optional<PanTilt> reachable(const PanTilt& angles) const;
   std::optional<PanTilt> reachable_from(const PanTilt& here, PanTilt angles) const;
   // The reported angles that put a direction on the optical axis; nullopt if the unit cannot point
@@ -121,7 +124,7 @@ class PointingModel {
 
   StationGeometry geometry_;
   sensors::StationPose pose_;
-  sensors::StationPose revision_pose_;  // the pose that belongs to pose_revision()
+  sensors::StationPose revision_pose_;  // the pose at the last change of pose_revision()
   std::int64_t pose_revision_ = 0;
   mount::Limits limits_;
   mount::MountAngles angles_;

@@ -1,6 +1,6 @@
 // Chooses the bearings that are published together with their raw pixel and encoder counts: the
-// last one before and the first one after each whole second of UTC. The sightings of several
-// stations can then be interpolated to the same instants. Pure.
+// last bearing before each whole second of UTC, and the first one after it. The sightings of
+// several stations can then be interpolated to the same times.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct Sighting {
 
 class SightingDesk {
  public:
-  // Takes bearings in time order. Returns the sightings that are to be published now.
+  // Takes bearings in the order of their times. Returns the sightings that are to be published now.
   std::vector<Sighting> take(const Bearing& bearing, std::int64_t utime_us,
                              const PointingModel& unit);
 

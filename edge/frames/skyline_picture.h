@@ -1,5 +1,5 @@
-// Chooses the pictures in which the skyline of the land is looked for: those of a camera at rest.
-// Pure.
+// Chooses the pictures in which the skyline of the land is searched for: those of a camera at rest.
+// Without state.
 #pragma once
 
 #include <deque>
@@ -11,9 +11,9 @@
 
 namespace ols::station {
 
-// The newest of these frames (given oldest first) for which the mount's angles are known before and
-// after the exposure, with the camera's pose. nullopt if there is none, if mount or zoom moved
-// during that exposure, or if the station has no position.
+// Returns the newest frame for which the mount's angles before and after the exposure are known,
+// with the camera's pose. `frames`: oldest first. nullopt if there is no such frame, if mount or
+// zoom moved during its exposure, or if the station has no position.
 std::optional<skyline::StatedPicture> skyline_picture(const std::deque<camera::Frame>& frames,
                                                       const PointingModel& pointing);
 
