@@ -1,4 +1,5 @@
-// The fusion's newest prediction about a target that the land hides, as long as it holds. Pure.
+// Keeps the fusion's newest prediction about a target that the land hides, as long as the
+// prediction is valid.
 #pragma once
 
 #include <optional>
@@ -11,16 +12,17 @@ namespace ols::station {
 
 class ActiveOcclusion {
  public:
-  // Returns false if a later prediction from the same sender is in force.
+  // Takes a prediction. Returns false, and ignores it, if a later prediction from the same sender
+  // is in force.
   bool give(const OcclusionCommand& command);
   void clear() { command_.reset(); }
   void expire(double now_s);
 
   // nullopt if nothing is predicted.
   const std::optional<OcclusionCommand>& command() const { return command_; }
-  // The place where the target comes out, as a slew; nullopt if it is unknown.
+  // The place where the target will reappear, as a slew; nullopt if it is unknown.
   std::optional<SlewCommand> exit() const;
-  // The goal of the mount, which waits at that place. nullopt if the place is unknown, or the unit
+  // The goal of the mount: it waits at that place. nullopt if the place is unknown, or if the unit
   // cannot point there.
   std::optional<mount::Goal> goal(const PointingModel& pointing, double now_s) const;
 

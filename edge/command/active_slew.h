@@ -1,4 +1,4 @@
-// The latest slew for this station, until its lease ends. Pure.
+// Keeps the newest slew of this station until the slew's lease ends.
 #pragma once
 
 #include <optional>
@@ -19,9 +19,9 @@ class ActiveSlew {
   // nullopt if no slew is active.
   const std::optional<SlewCommand>& command() const { return command_; }
   // Whether the slew is a search along a line. Such a search continues even after the station has
-  // found something; the station only pauses to look at it.
+  // found an object; the mount only pauses while the object is on trial.
   bool searches_line() const { return command_ && command_->searches_line(); }
-  // nullopt if no slew is active, or if the unit cannot point there.
+  // The goal of the mount. nullopt if no slew is active, or if the unit cannot point there.
   std::optional<mount::Goal> goal(const PointingModel& pointing, double now_s) const;
   // Whether more than one fusion slews this station.
   bool has_several_senders(double now_s) const { return senders_.are_several(now_s); }

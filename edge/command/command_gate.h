@@ -1,12 +1,13 @@
-// Accepts each command once, and only while it is fresh. Pure.
+// Accepts each command once, and only while the command is fresh.
 //
-// The bus may run without signatures (base/trust/), and LCM has no protection against replayed
-// messages. The gate therefore remembers each command by its sender's boot id, its sequence number
-// and its stamp, for longer than the command can stay fresh. A command is fresh as long as its
-// stamp, by the station's UTC, is not older than its lease plus a margin for the difference between
-// the two clocks. Sequence numbers are never compared, and the stamps of one sender never block
-// another: without signatures, anybody may use any name. If the station's clock is set back by more
-// than a lease, or after a restart, forgotten commands may pass again.
+// LCM does not protect against replayed messages, and the bus may run without signatures
+// (base/trust/). Therefore, the gate remembers each command: its sender's boot id, its sequence
+// number and its time stamp. It does so for longer than the command is fresh. A command is fresh
+// while the age of its stamp, by the station's UTC, is at most its lease plus a margin for the
+// difference between the two clocks. The gate does not require sequence numbers or stamps to
+// increase: without signatures, anybody could then block a sender by using its name. If the
+// station's clock is set back by more than the longest lease, commands that the gate has forgotten
+// may pass again.
 #pragma once
 
 #include <cstddef>
@@ -32,22 +33,22 @@ const char* to_string(GateRefusal refusal);
 class CommandGate {
  public:
   struct Config {
-    double clock_margin_s = 0.5;  // largest difference between the two clocks
+    double clock_margin_s = 0.5;  // maximum difference between the two clocks
     double lease_max_s = 10.0;
     // This number of commands is always remembered, however old they are, because they would become
-    // fresh again if the clock were set back. It corresponds to four minutes of slews.
+    // fresh again if the clock were set back. It corresponds to the slews of four minutes.
     std::size_t kept = 4096;
-    // Largest number of remembered commands. Forged commands with the latest stamp can block others
-    // only if more than this number arrive within the margin. That would be 130 000 a second, more
-    // than a station can read.
+    // Maximum number of remembered commands. Beyond it, the gate forgets commands that are still
+    // fresh, and refuses others with the same or earlier stamps. To block other senders in this
+    // way, a forger would need 130 000 commands a second, which is more than a station can read.
     std::size_t most = 65536;
   };
-  // Commands stamped before `began_utime_us` are refused as replayed: the previous process may have
-  // accepted them.
+  // `began_utime_us`: when this process began. Commands with earlier stamps are refused as
+  // replayed, because the previous process may have accepted them.
   CommandGate(const Config& config, std::int64_t began_utime_us)
       : config_(config), began_utime_us_(began_utime_us) {}
 
-  // Returns nullopt if the command may pass; it is then remembered.
+  // Returns nullopt, and remembers the command, if it may pass.
   std::optional<GateRefusal> admit(const CommandStamp& stamp, std::int64_t now_utime_us);
 
   std::size_t remembered() const { return passed_.size(); }
@@ -63,9 +64,9 @@ class CommandGate {
   Config config_;
   std::int64_t began_utime_us_;
   std::int64_t latest_utime_us_ =
-      std::numeric_limits<std::int64_t>::min();  // the time at the last call
+      std::numeric_limits<std::int64_t>::min();  // time of the last call
   std::set<Passed> passed_;
-  // The latest stamp among the forgotten commands.
+  // The latest stamp of the commands that were forgotten.
   std::optional<std::int64_t> forgotten_utime_us_;
 };
 

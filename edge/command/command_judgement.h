@@ -1,4 +1,5 @@
-// Decides why a command must not be carried out in the present situation. Pure.
+// Decides whether a command may be carried out in the present situation, and if not, why. Without
+// state.
 #pragma once
 
 #include "edge/frames/pointing_model.h"
@@ -15,19 +16,20 @@ struct Situation {
   double now_s = 0.0;  // on the station's monotonic clock
 };
 
-// Returns kNone if the command is permitted. More conditions follow later: a designation needs its
-// frame and the tracker's acceptance, and a point command needs angles that the unit can reach.
+// These functions return kNone if the command is permitted. The Station checks further conditions:
+// for a designation, that it has the frame and the tracker accepts the box; for a point command,
+// that the unit can reach the angles.
 Refusal judge(const DesignateCommand& command, const Situation& situation);
 Refusal judge(const SlewCommand& command, const Situation& situation);
 Refusal judge(const OcclusionCommand& command, const Situation& situation);
 Refusal judge(const PointCommand& command, const Situation& situation);
 Refusal judge(const RateCommand& command, const Situation& situation);
 Refusal judge(const LensCommand& command, const Situation& situation);
-// For any command with which an operator moves the unit.
+// For any command by which an operator moves the unit.
 Refusal judge_motion(const Situation& situation);
 Refusal judge_home(const Situation& situation);
 Refusal judge_reference_ok(const Situation& situation);
-Refusal judge_rearm(const Situation& situation);  // for a person at the station
+Refusal judge_rearm(const Situation& situation);  // by a person at the station
 Refusal judge_rearm_over_bus(const Situation& situation);
 
 }  // namespace ols::station

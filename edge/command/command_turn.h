@@ -1,6 +1,6 @@
-// Collects the operator's commands of one turn of the control loop. Only the newest designation of
-// a turn is carried out, because each one makes the tracker process all frames since the designated
-// image. A stop never waits for a designation. Pure.
+// Collects the operator's commands during one cycle of the control loop. Only the newest
+// designation of a cycle is carried out, because each one makes the tracker process all frames
+// since the designated image. A stop never waits for a designation.
 #pragma once
 
 #include <atomic>
@@ -29,22 +29,23 @@ class CommandTurn {
   // `station` must outlive this object.
   explicit CommandTurn(Station& station) : station_(station) {}
 
-  // Notes a stop. May be called from any thread; does not wait. end() carries the stop out.
+  // Notes a stop; end() carries it out. May be called from any thread, and does not wait.
   void stop() { stop_ = true; }
 
-  // Takes a designation. The designation is carried out at the end of the turn, or before another
-  // command.
+  // Takes a designation. It is carried out at the end of the cycle, or before the next command of
+  // another kind.
   void designate(const DesignateCommand& command, const CommandId& id);
-  // Call before any other operator command. Carries out the pending designation, unless one was
-  // already carried out in this turn. So there are at most two designations per turn.
+  // Call before any other operator command. Carries out the pending designation. If another one has
+  // already been carried out in this cycle, the pending one is dropped instead. Therefore, a cycle
+  // carries out at most two designations.
   void before_other_command(double now_s);
-  // Call after the turn's last command.
+  // Call after the last command of the cycle.
   void end(double now_s);
 
   // The results of all designations since the last call.
   std::vector<Decision> take_decisions() { return std::exchange(decisions_, {}); }
 
-  // Number of designations dropped because of a newer one or a stop.
+  // Number of designations that were dropped because of another one or a stop.
   std::uint64_t superseded() const { return superseded_; }
 
  private:
@@ -55,7 +56,7 @@ class CommandTurn {
   std::atomic<bool> stop_ = false;
   std::optional<std::pair<DesignateCommand, CommandId>> designation_;
   std::vector<Decision> decisions_;
-  bool designated_ = false;  // a designation was carried out in this turn
+  bool designated_ = false;  // a designation was carried out in this cycle
   std::uint64_t superseded_ = 0;
 };
 

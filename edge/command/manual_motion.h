@@ -1,5 +1,5 @@
-// The motion that an operator commands: angles that the unit is to reach, or rates for their lease.
-// Pure.
+// Keeps the motion that an operator commands: either angles that the unit must reach, or rates that
+// are valid for their lease.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,11 @@ class ManualMotion {
   void turn(const RateCommand& command);
   void clear();
 
-  // Whether this rate was overtaken on its way: a later rate from the same sender is already in
-  // force.
+  // Whether this rate arrives too late: a later rate from the same sender is already in force.
   bool overtakes(const RateCommand& command, double now_s) const;
 
-  // nullopt means halt. A halted unit still moves for a time v/a while it brakes, so the halt comes
-  // early, after the share kInForce of the lease.
+  // nullopt means halt. A unit at speed v with deceleration a needs the time v/a to come to rest.
+  // Therefore, it is halted before the lease ends, after the share kInForce of the lease.
   std::optional<mount::Goal> goal(double now_s) const;
 
   static constexpr double kInForce = 0.8;

@@ -1,5 +1,5 @@
-// The signal SIGUSR1 re-arms a station after an emergency stop: a user logged in on the station's
-// computer counts as a person at the station. A program on the bus cannot send a signal.
+// The signal SIGUSR1 re-arms a station after an emergency stop. A user who is logged in on the
+// station's computer counts as a person at the station. A program on the bus cannot send a signal.
 #pragma once
 
 namespace ols::station {

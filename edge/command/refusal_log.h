@@ -1,6 +1,6 @@
-// Records refused messages, whether they were refused by the station or before they reached it:
-// their number, the text of the last refusal, and an alarm if commands are repeatedly refused
-// because they are not fresh. Pure.
+// Records refused messages: their number, the text of the last refusal, and an alarm if CommandGate
+// repeatedly refuses commands. The station itself may have refused a message, or it was refused
+// before it reached the station.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,11 @@ namespace ols::station {
 
 class RefusalLog {
  public:
-  // Notes an action that the station did not carry out, as text.
+  // Notes an action that the station did not carry out. `what`: the reason, for a person.
   void note(const std::string& what);
   // Notes a message that was refused before it reached the station. `kind`: for example "SLEW".
   void refuse(const std::string& kind, const std::string& why);
+  // Notes a command that CommandGate has refused.
   void refuse_at_gate(const std::string& kind, const std::string& why, double now_s);
 
   const std::string& last() const { return last_; }

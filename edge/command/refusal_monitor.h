@@ -1,5 +1,5 @@
-// Raises an alarm if commands are repeatedly refused before they reach the station: a legitimate
-// sender may be locked out and should learn why. Pure.
+// Raises an alarm if commands are repeatedly refused before they reach the station. A legitimate
+// sender may be locked out, and its operator should learn why.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ namespace ols::station {
 
 class RefusalMonitor {
  public:
-  // Notes that a command of this kind ("slews") was refused. Kinds and reasons must come from short
-  // fixed lists.
+  // Notes that a command of this kind ("slews") was refused. There must be few different kinds and
+  // reasons, because a counter is kept for each pair.
   void note(const std::string& kind, const std::string& why, double now_s);
-  // One alarm for each kind and reason with three or more refusals: "commands: 12 slews refused in
-  // 10 s: this command was taken before".
+  // One alarm for each kind and reason with three or more refusals within kSpan_s: "commands: 12
+  // slews refused in 10 s: this command was taken before".
   std::vector<Alarm> alarms(double now_s) const;
 
  private:

@@ -1,7 +1,7 @@
-// Detects that two fusions slew this station. Pure.
+// Detects that two fusions slew this station.
 //
-// A restarted fusion is a new sender, and the previous sender falls silent. If slews of two senders
-// alternate, two fusions are running.
+// After a restart, a fusion is a new sender, and the previous sender falls silent. If slews of two
+// senders alternate, two fusions are running.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class SlewConflictMonitor {
   // `boot_id`: identifies the fusion whose slew was accepted. `now_s`: the station's monotonic
   // clock.
   void note(std::int64_t boot_id, double now_s);
-  // Whether two fusions have slewed within the last seconds.
+  // Whether slews of two fusions have alternated within the last five seconds.
   bool are_several(double now_s) const;
 
  private:

@@ -1,5 +1,5 @@
-// Decides where and how a slewed station searches for its target: with the template of an earlier
-// track, or for any object that moves as the slew predicts. Pure.
+// Decides where and how a slewed station searches. It searches for its own target by appearance, or
+// for any object that moves as the slew predicts.
 #pragma once
 
 #include <deque>
@@ -35,36 +35,38 @@ class SlewSearch {
     Eigen::Vector2d pixel;
     double sd_px = 0.0;
   };
-  // The place where the tracker is to search for its target. nullopt if the tracker got a place a
-  // moment ago, or the unit has not arrived yet.
+  // The place where the tracker must search for its target. nullopt if the tracker has got a place
+  // within the last search_interval_s, or if the place is not in the picture yet.
   std::optional<Place> send_tracker(const camera::Frame& frame, const PointingModel& pointing,
                                     const Slew& slew);
-  // Whether a tracker's output is near the place to which the station is slewed. A similar object
+  // Whether the tracker's object is near the place to which the station is slewed. A similar object
   // elsewhere is not the object that the other stations see.
   bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                        const PointingModel& pointing, const Slew& slew) const;
 
-  // Whether the station may acquire any object at the slew's place. A station without a target may.
-  // A station with a target may if it has not seen the target there for own_target_s, because the
-  // designation may have been wrong.
+  // Whether the station may acquire any object at the slew's place. A station without a target may
+  // do so. A station with a target may do so after it has not found its target there for
+  // own_target_s, because the designation may have been wrong.
   bool looks_for_anything(const FollowedTarget& target) const;
   struct Acquired {
     const camera::Frame* frame;  // one of the frames passed to acquire()
     cv::Rect2d box;              // box of the object in that frame
     bool by_tracklet = false;    // found by the detector
   };
-  // Finds the object that behaves as the slew predicts. If exactly one confirmed object of the
-  // detector behaves so, it is returned; otherwise an object found in these frames (oldest first).
+  // Finds an object that moves as the slew predicts. If exactly one confirmed object of the
+  // detector does so, that object is returned. Otherwise, tracker::Acquisition searches the frames.
+  // `frames`: oldest first.
   std::optional<Acquired> acquire(const std::deque<camera::Frame>& frames,
                                   const std::optional<detector::Found>& found,
                                   const PointingModel& pointing, const Slew& slew);
-  // begin_trial: the trial of an acquired target begins. end_trial: the trial has failed; the
-  // station searches for its own target again.
+  // begin_trial(): call when the trial of an acquired target begins. end_trial(): call when the
+  // trial has failed, and the station searches for its own target again.
   void begin_trial(const Acquired& target);
   void end_trial(double time_s);
 
-  // The alarm if the slew's place is known well enough to be in the image, but nothing is acquired;
-  // otherwise empty.
+  // The alarm that nothing is acquired although the slew's place has been in the image for
+  // unacquired_alarm_s; otherwise empty. There is no alarm if the place is known so poorly that the
+  // target may be outside the image.
   Alarm unacquired_alarm(const Slew& slew) const;
   const std::map<std::string, double>& counters() const { return counters_; }
 
@@ -73,13 +75,13 @@ class SlewSearch {
   // How long the slew's place has been in the image, according to the frames.
   struct InView {
     double from_s = 0.0, to_s = kNever;
-    double own_from_s = kNever;  // time since which the own target is being searched for
+    double own_from_s = kNever;  // start of the search for the own target
   };
   struct Expected {  // where the slew's target is expected in a frame
     Eigen::Vector2d pixel;
     PanTilt angles;
-    // In a search along a line: the line's direction, a unit vector. In that case `pixel` is the
-    // point of the line nearest to the image's middle.
+    // For a search along a line: the line's direction in the image, a unit vector; `pixel` is then
+    // the point of the line nearest to the image's middle. Otherwise zero.
     Eigen::Vector2d line = Eigen::Vector2d::Zero();
   };
   static std::optional<Expected> expected(const camera::Frame& frame, const PointingModel& pointing,
@@ -99,7 +101,7 @@ class SlewSearch {
   const StationConfig config_;
   tracker::Acquisition acquisition_;
   InView in_view_;
-  double searched_s_ = 0.0;  // time when the tracker was last sent to search
+  double searched_s_ = 0.0;  // time at which the tracker last got a place
   std::map<std::string, double> counters_;
 };
 

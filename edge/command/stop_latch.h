@@ -1,5 +1,5 @@
-// Passes the emergency stop from the thread that sees the line's edges to the control loop. Even a
-// press shorter than a turn of the loop is caught.
+// Passes the state of the emergency stop from the thread that watches its input line to the control
+// loop. Even a press that is shorter than a cycle of the loop is noticed.
 #pragma once
 
 #include <atomic>
@@ -9,10 +9,10 @@ namespace ols::station {
 
 class StopLatch {
  public:
-  // If a stop is configured, its state is unknown until the first level arrives.
+  // `has_stop`: an emergency stop is configured. Its state is then unknown until the first set().
   explicit StopLatch(bool has_stop) : known_(!has_stop) {}
 
-  // Called by the thread that sees the edges, before it halts the unit.
+  // Called by the thread that watches the line, before it halts the unit.
   void set(bool pressed) {
     if (pressed) ++presses_;
     if (pressed) rearm_ = false;  // a re-arming before the press does not count
@@ -21,14 +21,14 @@ class StopLatch {
   }
   bool known() const { return known_; }
   bool pressed() const { return pressed_; }
-  // True if the stop was pressed since the last call, however briefly.
+  // True if the stop has been pressed since the last call, however briefly.
   bool take_press() {
     const std::uint64_t presses = presses_;
     const bool news = presses != seen_;
     seen_ = presses;
     return news;
   }
-  // Notes that a person at the station re-arms the station. Call from the same thread as set().
+  // Notes that a person at the station re-arms it. Call from the same thread as set().
   void rearm() { rearm_ = true; }
   bool take_rearm() { return rearm_.exchange(false); }
 
