@@ -4,10 +4,10 @@
 // (base/trust/). Therefore, the gate remembers each command: its sender's boot id, its sequence
 // number and its time stamp. It does so for longer than the command is fresh. A command is fresh
 // while the age of its stamp, by the station's UTC, is at most its lease plus a margin for the
-// difference between the two clocks. The gate does not require sequence numbers or stamps to
-// increase: without signatures, anybody could then block a sender by using its name. If the
-// station's clock is set back by more than the longest lease, commands that the gate has forgotten
-// may pass again.
+// difference between the two clocks. The gate does not require that sequence numbers or stamps
+// increase. If it did, anybody could block a sender on an unsigned bus, by sending a higher number
+// under its boot id. If the station's clock is set back by more than the longest lease, commands
+// that the gate has forgotten may pass again.
 #pragma once
 
 #include <cstddef>

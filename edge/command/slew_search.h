@@ -44,9 +44,9 @@ class SlewSearch {
   bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                        const PointingModel& pointing, const Slew& slew) const;
 
-  // Whether the station may acquire any object at the slew's place. A station without a target may
-  // do so. A station with a target may do so after it has not found its target there for
-  // own_target_s, because the designation may have been wrong.
+  // Whether the station may acquire any object at the place where the slew points. A station
+  // without a target may do so. A station with a target may do so after it has not found its target
+  // there for own_target_s, because the designation may have been wrong.
   bool looks_for_anything(const FollowedTarget& target) const;
   struct Acquired {
     const camera::Frame* frame;  // one of the frames passed to acquire()
@@ -64,15 +64,15 @@ class SlewSearch {
   void begin_trial(const Acquired& target);
   void end_trial(double time_s);
 
-  // The alarm that nothing is acquired although the slew's place has been in the image for
-  // unacquired_alarm_s; otherwise empty. There is no alarm if the place is known so poorly that the
+  // The alarm that nothing is acquired, although the place where the slew points has been in the
+  // image for unacquired_alarm_s. Empty otherwise, and also if the place is so uncertain that the
   // target may be outside the image.
   Alarm unacquired_alarm(const Slew& slew) const;
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
-  // How long the slew's place has been in the image, according to the frames.
+  // The times of the first and of the last frame that showed the place where the slew points.
   struct InView {
     double from_s = 0.0, to_s = kNever;
     double own_from_s = kNever;  // start of the search for the own target
