@@ -1,5 +1,5 @@
-// The calibration that a station works with, or the reason why the configured one is not used.
-// Without a usable calibration, a station works with the values in its own configuration.
+// Keeps the calibration that a station uses, or the reason why the configured one is not used.
+// Without a usable calibration, a station uses the values of its own configuration.
 #pragma once
 
 #include <cstdint>
@@ -20,30 +20,31 @@ class ActiveCalibration {
   // Reads the configured folder, if there is one. Never throws, whatever the folder contains.
   explicit ActiveCalibration(const StationSettings& configured);
 
-  // The settings that the station uses; always a reference to the same object.
+  // The settings that the station uses. The reference stays valid when the settings change.
   const StationSettings& settings() const { return settings_; }
-  // True if the calibration was dropped just now because it belongs to other devices; settings()
-  // has changed. Serial numbers are known only once the devices are open.
+  // Compares the serial numbers of the devices, which are known only once the devices are open.
+  // Returns true if this call has dropped the calibration, because it belongs to other devices;
+  // settings() has then changed.
   bool refuses(const std::vector<device::DeviceReport>& devices);
-  // As above, for the size of a count [rad] that the unit reports; 0 if it is not known yet. A unit
-  // in a different step mode has errors other than the calibrated ones. The calibration stays
-  // dropped until a restart or another calibration.
+  // Likewise, compares the size of a count [rad] that the unit reports; 0 while it is unknown. In
+  // another step mode, a unit has other errors than the calibrated ones. A dropped calibration is
+  // not used again until a restart, or until another calibration is adopted.
   bool refuses(const PanTilt& count_rad);
 
-  // Why these files cannot belong to the open devices, or to counts of this size; empty if they
+  // Why these files cannot belong to these devices, or to counts of this size [rad]; empty if they
   // can.
   static std::string conflict(const CalibrationFiles& files,
                               const std::vector<device::DeviceReport>& devices,
                               const PanTilt& count_rad);
-  // One alarm for each device whose serial number differs from the configured one. This is needed
-  // because a new instrument gets the configured serial numbers.
+  // One alarm for each device whose serial number differs from the configured one. This matters
+  // because a new instrument file takes over the configured serial numbers.
   static std::vector<Alarm> other_devices(const InstrumentSerials& configured,
                                           const std::vector<device::DeviceReport>& devices);
-  // Uses these files from now on; settings() changes.
+  // Uses these files from now on, and changes settings().
   void adopt(const CalibrationFiles& files);
 
   CalibrationStatus status() const;
-  // Why the calibration is not used, and what to do; empty if there is nothing to report.
+  // The alarm that says why the calibration is not used; empty if there is nothing to report.
   std::vector<Alarm> alarms() const;
 
  private:

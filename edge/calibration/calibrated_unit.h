@@ -1,5 +1,5 @@
-// A pan-tilt unit with a calibration: converts between the angles that the unit reports and ideal
-// angles. Pure.
+// A pan-tilt unit with a calibration. It converts between the angles that the unit reports and
+// ideal angles.
 #pragma once
 
 #include "edge/mount/approach_history.h"
@@ -12,14 +12,15 @@ class CalibratedUnit {
   explicit CalibratedUnit(const StationCalibration& calibration);
 
   const StationCalibration& calibration() const { return calibration_; }
-  // Adds variances to the heading and the tilts of the calibration, because the station was
-  // knocked.
+  // Adds these variances to those of the calibration's heading and tilts, because the station was
+  // knocked. They replace the variances of an earlier call.
   void doubt_setup(double heading_variance_rad2, double tilt_variance_rad2);
 
-  // The size of a count [rad] as the unit reports it, which is rounded. It is used only to convert
-  // reported angles to counts. The exact size is a fraction of a turn.
+  // Sets the size of a count [rad] as the unit reports it. The unit rounds this size; the exact
+  // size is a turn divided by a whole number. The reported size is used only to convert reported
+  // angles to counts.
   void set_count(const PanTilt& count_rad);
-  // Whether a turn has as many counts as in the calibration, so that the step mode is the same.
+  // Whether the step mode is that of the calibration: a turn has the same number of counts.
   bool fits() const { return fits_; }
 
   UnitReading reading(const PanTilt& reported, const PanTilt& rate_rad_s,
@@ -27,16 +28,16 @@ class CalibratedUnit {
   PanTilt corrected(const UnitReading& reading) const {
     return corrected_angles(calibration_.model, reading);
   }
-  // The angles that the unit reports when it has come straight from `here`, where it stands after
-  // `approach`, and points where an ideal unit points at `corrected`. `corrected` must include
-  // whole turns of the pan axis, because angles a whole turn apart are approached from different
-  // sides.
+  // The angles that the unit reports when it points in the direction of the ideal angles
+  // `corrected`, after it has moved there directly from `here`, which it reached by `approach`.
+  // `corrected` must include whole turns of the pan axis, because the unit approaches angles a whole
+  // turn apart from different sides.
   PanTilt reported(const PanTilt& corrected, const PanTilt& here,
                    const mount::Approach& approach) const;
 
  private:
   StationCalibration calibration_;
-  // Added to the calibration's variances: heading, each tilt.
+  // What doubt_setup() has added to the variances: of the heading; of each tilt.
   Eigen::Vector2d doubt_rad2_ = Eigen::Vector2d::Zero();
   PanTilt count_rad_;
   bool fits_ = true;

@@ -1,5 +1,5 @@
-// Notices that a new calibration was accepted while the station runs: the configured folder is then
-// a link to another folder. Reads that folder in its own thread.
+// Notices when a new calibration is accepted while the station runs: the configured folder then
+// links to another folder. Reads that folder in its own thread.
 #pragma once
 
 #include <future>
@@ -14,17 +14,17 @@ namespace ols::station {
 
 class CalibrationFolderWatch {
  public:
-  // `configured`: the settings as in the configuration file. The folder's content at construction
-  // counts as already read.
+  // `configured`: the settings of the configuration file. The content that the folder has now
+  // counts as read.
   explicit CalibrationFolderWatch(const StationSettings& configured);
 
-  // Call in every turn. Checks the folder once a second.
+  // Checks the folder once a second. Call it in every cycle of the control loop.
   void look(double now_s);
-  // A calibration that was read completely and belongs to this station and its serial numbers; null
-  // if none is waiting.
+  // A new calibration that was read completely and belongs to this station and its serial numbers;
+  // null if there is none.
   const CalibrationFiles* waiting() const { return files_.get(); }
   void forget() { files_.reset(); }
-  // Marks the calibration as unusable until another one is accepted.
+  // Rejects the new calibration; alarm() gives the reason until another one is accepted.
   void refuse(const std::string& why);
   Alarm alarm() const;
 
@@ -33,7 +33,7 @@ class CalibrationFolderWatch {
   void take_read();
 
   StationSettings configured_;
-  std::string seen_;  // the folder and its time of writing
+  std::string seen_;  // path of the folder, and the time at which its setup.toml was written
   std::string refused_;
   std::future<Read> reading_;
   Read files_;

@@ -1,5 +1,5 @@
-// The calibration of a running station. Also checks whether the station has moved since it was
-// calibrated.
+// Manages the calibration of a running station, and checks whether the station has moved since it
+// was calibrated.
 #pragma once
 
 #include <cstdint>
@@ -20,30 +20,32 @@ namespace ols::station {
 
 class CalibrationSupervisor {
  public:
-  using UtcNow = std::function<std::int64_t()>;  // [us] used for the position of the sun
+  using UtcNow = std::function<std::int64_t()>;  // UTC [us]; used for the position of the sun
   explicit CalibrationSupervisor(const StationSettings& configured, UtcNow now = clock_utime_us);
 
   const StationSettings& settings() const { return in_use_.settings(); }
-  // True if the calibration was dropped just now because it belongs to other devices; settings()
-  // has changed.
+  // True if this call has dropped the calibration, because it belongs to other devices; settings()
+  // has then changed.
   bool refuses(const std::vector<device::DeviceReport>& devices);
-  // As above, for the size of a count [rad] that the unit reports.
+  // Likewise, for the size of a count [rad] that the unit reports.
   bool refuses(const PanTilt& count_rad);
 
-  // True if a newly accepted calibration was adopted just now; settings() has changed. `idle`:
-  // nothing (target, operator, slew) would be disturbed by the jump in the angles.
+  // True if this call has adopted a newly accepted calibration; settings() has then changed.
+  // `idle`: there is no target, operator or slew that the jump of the angles would disturb.
   bool adopts(double now_s, bool idle, const std::vector<device::DeviceReport>& devices,
               const PanTilt& count_rad);
 
   void set_limits(const mount::Limits& limits);
-  // Call in every turn. While the station is free, returns the goal of a check of the reference
-  // views.
+  // Call in every cycle of the control loop. While the station is free, returns the unit's goal for
+  // a check of the reference views, if one is under way.
   std::optional<mount::Goal> step(const ViewTour::Situation& situation);
   void see(const camera::Frame& frame);
-  // Requests a check soon if the unit has homed.
+  // Requests a check if the unit has homed since the last call. `homings`: number of homings so
+  // far.
   void note_homings(std::uint64_t homings);
 
-  // The error that bearings must add from now on; nullopt if it has not changed.
+  // The 1-sigma that bearings must add from now on; nullopt if it has not changed since the last
+  // call.
   struct Doubt {
     double heading_rad = 0.0, tilt_rad = 0.0;
   };
@@ -57,7 +59,8 @@ class CalibrationSupervisor {
   void begin();
 
   UtcNow now_;
-  // Declared first, because a change while the folder is read counts as another calibration.
+  // Declared before in_use_, which reads the folder: if the folder changes meanwhile, next_ notices
+  // it as another calibration.
   CalibrationFolderWatch next_;
   ActiveCalibration in_use_;
   // Null if no calibration is in use, or no checks are configured.

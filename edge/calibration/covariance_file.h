@@ -1,4 +1,4 @@
-// covariance.csv, next to instrument.toml: the covariance of an instrument's parameters.
+// Reads covariance.csv, next to instrument.toml: the covariance of an instrument's parameters.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace ols::calibration {
 
-// Reads the instrument's part of a covariance, in internal units. Throws CsvError "FILE:LINE: key:
-// what" unless every parameter has one row and one column, and the matrix is a covariance:
-// symmetric, with positive definite correlations. A variance of 0 means that the value is known
-// exactly.
+// Reads the instrument's part of a covariance, in internal units. A variance of 0 means that the
+// value is known exactly. Every parameter must have one row and one column; only k3 and k4 may be
+// missing, and are then known exactly. The matrix must be a covariance: symmetric, with positive
+// definite correlations. Otherwise throws CsvError "FILE:LINE: key: what".
 InstrumentMatrix read_covariance(const std::string& path);
-// As above, for all parameters of a station.
+// Likewise, for all parameters of a station.
 StationMatrix read_station_covariance(const std::string& path);
 
 }  // namespace ols::calibration

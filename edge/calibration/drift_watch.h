@@ -1,5 +1,5 @@
-// Follows a station's drift from check to check. A finding counts only after a second check
-// confirms it. A finding never corrects angles. Pure.
+// Follows a station's drift from check to check. A finding counts only after a second check has
+// confirmed it. A finding never corrects angles.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class DriftWatch {
     double amber_rad = 20.0 * 3.14159265358979323846 / 648000.0;
     double red_rad = 40.0 * 3.14159265358979323846 / 648000.0;
   };
-  // `calibration_id`: of the calibration at which the views were stored.
+  // `calibration_id`: the calibration at which the views were stored.
   DriftWatch(const Config& config, std::int64_t calibration_id)
       : config_(config), calibration_id_(calibration_id) {}
 
@@ -32,13 +32,13 @@ class DriftWatch {
   // The 1-sigma that bearings must add; zero if there is no alarm.
   double heading_doubt_rad() const;
   double tilt_doubt_rad() const;
-  // A number that is incremented at each change of the doubt.
+  // Is incremented at each change of the doubt.
   int revision() const { return revision_; }
-  // The finding in words, and what to do; empty if there is none.
+  // The alarm that names the finding and what to do; empty if there is none.
   Alarm alarm() const;
 
-  // One line for a file. restore() loads it if it belongs to the same calibration, and returns
-  // false for a line that it cannot read.
+  // to_text() gives the state as one line for a file. restore() takes the state from such a line,
+  // unless the line belongs to another calibration. It returns false if it cannot read the line.
   std::string to_text() const;
   bool restore(const std::string& text);
 

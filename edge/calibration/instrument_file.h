@@ -1,5 +1,5 @@
-// instrument.toml: camera, lens and pan-tilt unit as one instrument, with its serial numbers, its
-// parameters and their deviations.
+// Reads and writes instrument.toml: camera, lens and pan-tilt unit as one instrument, with its
+// serial numbers, its parameters and their sigmas.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace ols::calibration {
 
-// The constants of the lens model and of the unit for which the values were found. An adjustment
-// does not change them.
+// The constants of the lens model and of the unit to which the adjusted values belong. An
+// adjustment does not change these constants.
 struct FixedValues {
   LensModel model = LensModel::kPinhole;
   double skew = 0.0, p1 = 0.0, p2 = 0.0;
@@ -21,37 +21,39 @@ struct FixedValues {
 struct Instrument {
   station::InstrumentSerials serials;
   FixedValues fixed;
-  AxisModel pan, tilt;  // their counts and teeth; their errors are in `values`
-  // 1-sigma of each angle of a pose, independent at every pose.
+  AxisModel pan, tilt;  // number of counts and teeth; the errors are in `values`
+  // 1-sigma of each angle at a stop of the unit, independent from stop to stop.
   double angle_sd_rad = 5.0 * EIGEN_PI / 648000.0;
-  std::string covariance_file;  // file next to this one; if empty, only [sd] is given
+  // Name of a file in the same folder; if empty, instrument.toml gives only sigmas, in [sd].
+  std::string covariance_file;
   InstrumentVector values = InstrumentVector::Zero();
   InstrumentMatrix covariance = InstrumentMatrix::Zero();
 };
 
-// Makes an instrument for a new unit, from a station's configuration. The deviations come from
-// calibration/parameters.h; for the mounting they are at least as large as in [calibration.sd].
+// Makes an instrument for a new unit, from a station's configuration. The sigmas come from
+// calibration/parameters.h; those of the mounting are at least as large as in [calibration.sd].
 Instrument new_instrument(const station::StationSettings& settings);
 
-// Keys that are missing keep the values of `fallback`. Throws ConfigError or CsvError, naming file,
-// line and key.
+// Reads the file. Keys that are missing get the values of `fallback`. Throws ConfigError or
+// CsvError, naming file, line and key.
 Instrument read_instrument(const std::string& path, const Instrument& fallback);
 
 // Throws std::invalid_argument, naming file and key, if a serial number contains a quote, a
-// backslash or a control character, because a file cannot store these.
+// backslash or a control character, because the file cannot store these.
 void check_plain(const station::InstrumentSerials& serials, const std::string& path);
 
 // Throws std::invalid_argument, naming the part, if serial numbers differ.
 void check_serials(const station::InstrumentSerials& configured,
                    const station::InstrumentSerials& calibrated, const std::string& path);
-// The parts whose serial number only one side states, so that they could not be compared; empty if
-// there are none.
+// The parts whose serial number only one of the two states, which therefore cannot be compared;
+// empty if there are none.
 std::string uncompared_serials(const station::InstrumentSerials& configured,
                                const station::InstrumentSerials& calibrated);
 
 // The model of a station with this instrument.
 StationModel with_instrument(const StationGeometry& geometry, const Instrument& instrument);
 
+// The text of instrument.toml.
 std::string instrument_text(const Instrument& instrument);
 
 }  // namespace ols::calibration

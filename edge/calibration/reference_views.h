@@ -1,6 +1,6 @@
-// The stored pictures of a calibrated station's reference views, and the results of checks against
-// them. Files and pictures are handled in other threads, so that a turn of the control loop never
-// waits for them.
+// Stores pictures of a calibrated station's reference views, and checks later pictures against
+// them. Files and pictures are processed in other threads, so that the control loop never waits for
+// them.
 #pragma once
 
 #include <cstdint>
@@ -25,41 +25,39 @@ class ReferenceViews {
  public:
   struct Config {
     std::string
-        // Folder of the persisted state; if empty, pictures and findings are lost when the process
-        // ends.
-        folder;
+        folder;  // of the persisted state; if empty, pictures and findings end with the process
     std::string station;
     std::int64_t calibration_id = 0;
     ViewTour::Config tour;
     DriftWatch::Config drift;
-    // Whether the sun is too near to these reported angles, if the tripod may have turned by this
-    // angle [rad] since the calibration. If empty, the sun is ignored.
+    // Whether the sun is too near to the direction of these reported angles. The second argument:
+    // the angle [rad] by which the tripod may have turned since the calibration. If the function is
+    // empty, the sun is ignored.
     std::function<bool(const PanTilt&, double)> sun;
   };
   ReferenceViews(const Config& config, const StationCalibration& calibration);
-  ReferenceViews(const ReferenceViews&) = delete;  // its tour holds a reference to it
+  ReferenceViews(const ReferenceViews&) = delete;  // tour_ holds a pointer to this object
 
-  // Sets the unit's travel limits, once they are known. This starts the reading of the stored
-  // pictures.
+  // Sets the unit's travel limits, once they are known, and starts to read the stored pictures.
   void set_limits(const mount::Limits& limits);
   void request() { tour_.request(); }
   std::optional<mount::Goal> step(const ViewTour::Situation& situation);
   void see(const camera::Frame& frame);
 
-  // Whether the stored pictures have been read. Call in every turn.
+  // Whether the stored pictures have been read. Call it in every cycle of the control loop.
   bool loaded();
   const DriftWatch& watch() const { return watch_; }
   bool stored() const { return stored_ == views(); }
   std::uint64_t checks() const { return tally_.checks; }
-  // Number of times that a view was not recognised: night, fog, another scene.
+  // How often a view was not recognised: night, fog, another scene.
   std::uint64_t unrecognised() const { return tally_.unrecognised; }
-  // Number of times that a round left out a view because of the sun.
+  // How often a round left out a view because of the sun.
   std::uint64_t left_out() const { return tally_.left_out; }
   std::vector<Alarm> alarms() const;
 
  private:
-  // The result for a picture: its offset from the stored picture or, if none is stored, the picture
-  // to be stored.
+  // The result of a picture: its offset from the stored picture or, if none was stored, the picture
+  // itself, which is now stored.
   struct Seen {
     std::optional<ViewOffset> offset;
     cv::Mat picture;
@@ -84,8 +82,8 @@ class ReferenceViews {
   ViewTour tour_;
   DriftWatch watch_;
   BackgroundFile file_;
-  std::vector<cv::Mat> pictures_;              // for each view; empty if none is stored yet
-  std::future<std::vector<cv::Mat>> loading_;  // the same pictures, while they are being read
+  std::vector<cv::Mat> pictures_;              // one for each view; empty if none is stored yet
+  std::future<std::vector<cv::Mat>> loading_;  // the stored pictures while they are being read
   std::size_t stored_ = 0;
   CheckRecord record_;
   std::vector<Look> looks_;
@@ -93,7 +91,7 @@ class ReferenceViews {
   Tally tally_;
   bool judged_ = true;
   bool astray_ = false;           // the last round did not recognise its stored pictures
-  std::optional<PanTilt> count_;  // set once the views are planned
+  std::optional<PanTilt> count_;  // size of a count [rad]; set once the views are planned
 };
 
 }  // namespace ols::station

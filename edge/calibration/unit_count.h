@@ -1,4 +1,4 @@
-// Compares the size of a count that a unit reports with the one in a calibration. Pure.
+// Compares the size of a count that a unit reports with that of a calibration. Without state.
 #pragma once
 
 #include "geometry/station_model.h"
@@ -7,8 +7,8 @@ namespace ols::station {
 
 // The exact size of a count [rad].
 double count_of(const AxisModel& axis);
-// Whether the size of a count [rad] that a unit reports matches an axis with this many counts per
-// turn. If so, the step mode is the same as in the calibration.
+// Whether the size of a count that a unit reports, `printed_rad`, matches the number of counts per
+// turn of this axis. If it does, the step mode is that of the calibration.
 bool is_count_of(const AxisModel& axis, double printed_rad);
 
 }  // namespace ols::station

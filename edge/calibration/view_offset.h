@@ -1,4 +1,5 @@
-// Measures how far a camera's direction has turned since a stored picture of the same view. Pure.
+// Measures how far a camera's direction has turned since a stored picture of the same view. Without
+// state.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,14 +10,15 @@
 
 namespace ols::station {
 
-// A picture, and the angles that the unit reported.
+// A picture, and the angles that the unit reported for it.
 struct View {
   cv::Mat gray;
   PanTilt reported;
 };
 
-// nullopt if the stored picture is not recognised. A difference between the reported angles does
-// not count as a turn. `angle_sd_rad`: 1-sigma of each angle at a stop.
+// The turn from `stored` to `seen`, apart from the difference of the reported angles. nullopt if
+// the stored picture is not recognised. `angle_sd_rad`: 1-sigma of each angle at a stop of the
+// unit.
 std::optional<ViewOffset> offset_of(const View& stored, const View& seen,
                                     const StationGeometry& geometry, double angle_sd_rad);
 
