@@ -26,9 +26,9 @@ class PersistedStationState {
   // The doubt about the PTU's reference when the previous process ended; nullopt if there was none.
   const std::optional<mount::ReferenceDoubt>& doubt() const { return begin_doubt_; }
 
-  // Saves the present state, without waiting for the disk. Call it in each cycle of the station.
-  // When the station leaves its first state, a person has acted; from then on, the state is no
-  // longer unknown.
+  // Saves the present state, without waiting for the disk. Call it in every cycle of the control
+  // loop. When the station leaves its first state, a person has acted; from then on, the state is
+  // no longer unknown.
   void remember(StationState state, const std::optional<mount::ReferenceDoubt>& doubt,
                 mount::Reference reference);
 
@@ -43,8 +43,8 @@ class PersistedStationState {
   bool hold_unknown_ = false, doubt_unknown_ = false;
 };
 
-// Whether the operator or the emergency stop holds the station in this state. If so, the station
-// does not move by itself after its next start.
+// Whether the operator or the emergency stop holds the station in this state. If so, its next start
+// begins in kStopped or kEmergency.
 bool is_held(StationState state);
 
 }  // namespace ols::station

@@ -98,7 +98,9 @@ class Station {
   // has been accepted, and a new command has arrived.
   void emergency_stop(bool pressed, double now_s);
 
-  // Commands. A refused command changes nothing but its counter.
+  // Commands. A refused command changes nothing but counters. There is one exception: a slew to an
+  // unreachable direction is refused, but the station still lets go of its object
+  // (let_go_track_id).
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   // Takes a prediction that the land hides the target, or that the land no longer hides it. While

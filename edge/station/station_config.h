@@ -17,7 +17,7 @@ namespace ols::station {
 struct DetectionConfig {
   bool enabled = true;
   double rate_hz = 10.0;  // maximum rate of images passed to the detector
-  int max_bearings = 16;  // maximum number for one image; the likeliest tracklets are sent
+  int max_bearings = 16;  // maximum number for one image; the likeliest objects are chosen
   detector::DetectorConfig detector;
 };
 

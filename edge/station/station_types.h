@@ -62,8 +62,9 @@ struct Bearing {
   // The values from which the bearing was made:
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white part
-  double designation_sd_px = 0.0;  // 1-sigma of an offset that is the same in every frame
-  bool acquired = false;  // the target was found along a slew; false: an operator designated it
+  double designation_sd_px = 0.0;  // 1-sigma of the pixel's offset from the target's middle
+  // True: the target was found along a slew; false: an operator designated it.
+  bool acquired = false;
   std::optional<DetectedObject> detected{};
 
   bool is_tracklet() const { return detected && detected->is_tracklet; }
@@ -142,7 +143,7 @@ struct LensCommand {
   double lease_s = 0.0;
 };
 
-// Why a command was refused. to_string() gives the word in the names of the counters.
+// Why a command was refused. to_string() returns the word that the counters have in their names.
 enum class Refusal {
   kNone,
   kNotFinite,
@@ -152,17 +153,17 @@ enum class Refusal {
   kNothingThere,     // designation of a point at which nothing stands out
   kBox,              // designation of a box that is outside the image or too small
   kTracker,          // the tracker refused the image
-  kPrecedence,       // slew while an operator controls the PTU (manual or stopped)
+  kPrecedence,       // slew or prediction while an operator controls the PTU (manual or stopped)
   kEmergency,        // after an emergency stop that has not been re-armed
   kNoReference,      // the unit has no valid reference
   kNoUnit,           // there is no unit to home
   kKeepOut,          // homing would sweep across a keep-out region
   kNoDoubt,          // confirmation of a reference that is not in doubt
   kNoLens,           // there is no motorised lens
-  kOverview,         // slew to an overview station, which a person controls
+  kOverview,         // slew or prediction for an overview station, which a person controls
   kFixedMount,       // command to move a fixed mount
-  kOvertaken,        // the sender's later rate or prediction is already in force
-  kStopped,          // rate while the station is stopped; a rate cannot end a stop
+  kOvertaken,        // a later rate, prediction or designation has taken its place
+  kStopped,          // rate while the station is stopped, or designation overtaken by a stop
   kJustStopped,      // within kStopHold_s after a stop: the command may have been sent before it
   kRearmNeedsAHand,  // re-arming over the bus, although it needs a person at the station
 };
@@ -178,7 +179,7 @@ struct StationSnapshot {
   std::optional<CameraIntrinsics> camera;    // the camera at that focal length
   double focal_length_sd_px = 0.0;
   std::int64_t track_id = 0;
-  double belief = 0.0;  // of a hidden target: its belief when it was last seen
+  double belief = 0.0;  // while the target is hidden: the belief when it was last seen
   // On the monotonic clock; the latter only if known.
   std::optional<double> hidden_since_s, hidden_until_s;
   std::optional<mount::AngleSample> angles;
