@@ -1,5 +1,5 @@
 // Provides full-resolution frames for a calibration, on request. Each frame comes with the unit's
-// readings at its exposure. It is the first frame for which the unit stands as requested.
+// readings at its exposure. It is the first frame at which the unit stands as requested.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace ols::station {
 
 struct FrameRequest {
   std::int64_t boot_id = 0, sequence = 0;  // they identify the request
-  std::optional<PanTilt> at;               // requested reported angles; nullopt means any angles
+  std::optional<PanTilt> at;  // reported angles at which to take the frame; nullopt: any
   double tolerance_rad = 0.0;
   // How long the unit must have been at rest before mid-exposure; 0 means that it may move.
   double still_s = 0.0;

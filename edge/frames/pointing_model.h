@@ -108,9 +108,9 @@ class PointingModel {
                                           const AzimuthElevation& direction) const;
   bool in_picture(const Eigen::Vector2d& pixel) const;
 
-  // Several pan angles, a whole turn apart, have the same direction. These functions return those
-  // reported angles with the direction of `angles` that the unit reaches by the shortest way, from
-  // its present position or from `here`. nullopt if the unit cannot point there.
+  // Pan angles that differ by a whole turn point in the same direction. Of the reported angles with
+  // the direction of `angles`, these functions return those that the unit reaches by the shortest
+  // way, from its present position or from `here`. nullopt if the unit cannot point there.
   std::optional<PanTilt> reachable(const PanTilt& angles) const;
   std::optional<PanTilt> reachable_from(const PanTilt& here, PanTilt angles) const;
   // The reported angles that put a direction on the optical axis; nullopt if the unit cannot point
