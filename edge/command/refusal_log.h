@@ -1,6 +1,6 @@
-// Records refused messages: their number, the text of the last refusal, and an alarm if CommandGate
-// repeatedly refuses commands. The station itself may have refused a message, or it was refused
-// before it reached the station.
+// Records messages that the station refused, and messages that were refused before they reached it.
+// It keeps their number, the text of the last refusal, and an alarm if CommandGate repeatedly
+// refuses commands.
 #pragma once
 
 #include <cstdint>

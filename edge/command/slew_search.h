@@ -45,7 +45,7 @@ class SlewSearch {
                        const PointingModel& pointing, const Slew& slew) const;
 
   // Whether the station may acquire any object at the place where the slew points. A station
-  // without a target may do so. A station with a target may do so after it has not found its target
+  // without a target may do so. A station with a target may do so if it has not found its target
   // there for own_target_s, because the designation may have been wrong.
   bool looks_for_anything(const FollowedTarget& target) const;
   struct Acquired {

@@ -1,5 +1,5 @@
-// Passes the state of the emergency stop from the thread that watches its input line to the control
-// loop. Even a press that is shorter than a cycle of the loop is noticed.
+// Passes the state of the emergency stop to the control loop, from the thread that watches the
+// stop's input line. Even a press that is shorter than a cycle of the loop is noticed.
 #pragma once
 
 #include <atomic>

@@ -32,7 +32,8 @@ class Watch {
   // can look at none of the pictures.
   std::optional<mount::Goal> step(double now_s, bool free, bool sees,
                                   const PointingModel& pointing);
-  // The alarm that the unit cannot look at some pictures of the field; empty if it can look at all.
+  // The alarm that the unit cannot look at some pictures of the field; empty if it can look at all
+  // of them.
   Alarm alarm() const;
 
  private:
