@@ -14,8 +14,8 @@ namespace ols::station {
 
 class CalibrationFolderWatch {
  public:
-  // `configured`: the settings of the configuration file. The content that the folder has now
-  // counts as read.
+  // `configured`: the settings of the configuration file. The folder's present content counts as
+  // already read.
   explicit CalibrationFolderWatch(const StationSettings& configured);
 
   // Checks the folder once a second. Call it in every cycle of the control loop.

@@ -8,7 +8,7 @@ namespace ols::station {
 // The values are those of station_status_t.
 enum class CalibrationState {
   kNone,     // no calibration: heading, mounting and sigmas are those of the configuration
-  kInUse,    // the bearings' systematic errors are those of the calibration
+  kInUse,    // the systematic part of the bearings' covariance comes from the calibration
   kRefused,  // configured, but not used; an alarm says why
   kDoubted,  // in use, but the reference views have moved; the sigmas include this
 };

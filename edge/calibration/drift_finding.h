@@ -39,8 +39,8 @@ struct DriftFinding {
   int steps = 0;
 };
 
-// The angles by which the shafts turn in one full step of their motors. Steps are lost in this
-// unit.
+// The angle by which each shaft turns in one full step of its motor. Lost steps change the angle by
+// a multiple of it.
 struct MotorSteps {
   double pan_rad = 0.0, tilt_rad = 0.0;
 };

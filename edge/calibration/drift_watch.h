@@ -1,5 +1,5 @@
-// Follows a station's drift from check to check. A finding counts only after a second check has
-// confirmed it. A finding never corrects angles.
+// Follows a station's drift from one check of its reference views to the next. A finding counts
+// only after a second check has confirmed it. A finding never corrects angles.
 #pragma once
 
 #include <cstdint>

@@ -45,8 +45,8 @@ void check_plain(const station::InstrumentSerials& serials, const std::string& p
 // Throws std::invalid_argument, naming the part, if serial numbers differ.
 void check_serials(const station::InstrumentSerials& configured,
                    const station::InstrumentSerials& calibrated, const std::string& path);
-// The parts whose serial number only one of the two states, which therefore cannot be compared;
-// empty if there are none.
+// The parts whose serial number is in only one of `configured` and `calibrated`, and therefore
+// cannot be compared; empty if there are none.
 std::string uncompared_serials(const station::InstrumentSerials& configured,
                                const station::InstrumentSerials& calibrated);
 

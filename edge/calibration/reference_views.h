@@ -1,6 +1,6 @@
-// Stores pictures of a calibrated station's reference views, and checks later pictures against
-// them. Files and pictures are processed in other threads, so that the control loop never waits for
-// them.
+// Stores pictures of a calibrated station's reference views (ViewTour), and checks later pictures
+// against them. Files and pictures are processed in other threads, so that the control loop never
+// waits for them.
 #pragma once
 
 #include <cstdint>
@@ -56,8 +56,8 @@ class ReferenceViews {
   std::vector<Alarm> alarms() const;
 
  private:
-  // The result of a picture: its offset from the stored picture or, if none was stored, the picture
-  // itself, which is now stored.
+  // The result of processing a picture: its offset from the stored picture. If none was stored, the
+  // picture itself, which is now stored.
   struct Seen {
     std::optional<ViewOffset> offset;
     cv::Mat picture;

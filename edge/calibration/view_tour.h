@@ -1,6 +1,6 @@
-// Plans the rounds over a station's reference views. While the station is free, the unit goes from
-// view to view, and stops at each until a picture is taken. It approaches each view from the same
-// side in every round.
+// Plans the rounds over a station's reference views: fixed directions of which pictures were stored
+// after the calibration. While the station is free, the unit goes from view to view, and stops at
+// each until a picture is taken. It approaches each view from the same side in every round.
 #pragma once
 
 #include <cstddef>
@@ -43,8 +43,8 @@ class ViewTour {
   // rounds. `count`: the size of the unit's counts [rad].
   void plan(const mount::Limits& limits, const PanTilt& count);
   const std::vector<PanTilt>& views() const { return views_; }  // reported angles
-  // Requests a round as soon as the station has been free for 20 seconds: after homing, on command,
-  // or to confirm a finding.
+  // Requests a round, which begins when the station has been free for 20 seconds. Call it after
+  // homing, on command, or to confirm a finding.
   void request() { requested_ = true; }
   // True once after a round in which all views were seen, except those that were left out.
   bool take_finished();
