@@ -8,8 +8,8 @@
 
 namespace ols::tracker {
 
-// The response in a window of a frame. Each value is the response to a target whose centre is in
-// that cell.
+// The response of a filter in a window of a frame. Each cell has the response to a target whose
+// centre is in this cell.
 struct Response {
   struct Peak {
     // In the full frame, interpolated between cells.

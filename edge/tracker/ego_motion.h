@@ -44,10 +44,10 @@ class EgoMotionEstimator {
 
   // Takes the first frame, for which there is no motion.
   void start(const ReducedFrame& frame);
-  // `predicted`: maps the previous frame's full-frame pixels to this frame's. The search for the
-  // corners starts there, and the estimate stays near it where the corners do not determine it.
-  // Corners in or near `target_box` (of the previous frame) are ignored, because they may move with
-  // the target.
+  // `predicted`: maps the previous frame's full-frame pixels to this frame's. The search for each
+  // corner starts at its predicted place. Where the corners do not determine the estimate, it stays
+  // near the prediction. Corners in or near `target_box` (of the previous frame) are ignored,
+  // because they may move with the target.
   Estimate step(const ReducedFrame& frame, const cv::Rect2d& target_box,
                 const std::optional<Eigen::Matrix3d>& predicted);
 
@@ -68,7 +68,7 @@ class EgoMotionEstimator {
   ImagePyramid previous_pyramid_;
   ImagePyramid pyramid_;
   std::vector<cv::Point2f> corners_;                    // in the previous frame, reduced pixels
-  std::size_t detected_ = 0;                            // number of corners at their detection
+  std::size_t detected_ = 0;                            // number of corners at the last detection
   int followed_ = 0;                                    // number of frames since then
   Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // last homography, in reduced pixels
   int corner_threshold_ = 15;                           // threshold of FAST [grey levels]

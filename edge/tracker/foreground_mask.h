@@ -41,8 +41,8 @@ class ReferenceFrames {
 };
 
 // Computes |frame - `level`|, where `level` is the grey level around the target. It is used if no
-// earlier image shows the background alone. In front of a plain sky, both functions give the same
-// mask.
+// earlier image shows the background alone. In front of a plain sky, this function and the next one
+// give the same mask.
 FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
                           const Template& target);
 

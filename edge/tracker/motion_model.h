@@ -18,7 +18,7 @@ struct CameraMotion {
 };
 
 // The interval between two frames, limited to 0.1 ms .. 1 s. Two exposures are never closer than
-// that, and after a longer gap the target may be anywhere.
+// 0.1 ms. After more than 1 s, the target may be anywhere.
 double usable_interval_s(double from_s, double to_s);
 
 // Limits the particle's position to one frame size outside the frame, its velocity to ten frame
@@ -35,8 +35,8 @@ class MotionModel {
   explicit MotionModel(const TrackerConfig& config) : config_(config) {}
 
   // Starts a frame: the functions below use this motion of the camera, with its rate at `pixel` of
-  // the previous frame. Returns what the caller must add to all velocities relative to the scene
-  // [px/s]; see the class.
+  // the previous frame. Returns the change [px/s] that the caller must add to all velocities
+  // relative to the scene; see the class.
   Eigen::Vector2d begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel);
 
   // The particle's prediction without noise.
@@ -46,8 +46,7 @@ class MotionModel {
 
   const std::optional<Eigen::Matrix3d>& homography() const { return motion_.homography; }
   double interval_s() const { return motion_.interval_s; }
-  // The point of the scene at this pixel of the previous frame is at the returned pixel of this
-  // one.
+  // The pixel in this frame of a point of the scene that was at `pixel` in the previous frame.
   Eigen::Vector2d still(const Eigen::Vector2d& pixel) const;
   // The velocity, relative to the scene, of an object that is stationary in the image.
   Eigen::Vector2d image_fixed_velocity() const { return -camera_rate_px_s_; }

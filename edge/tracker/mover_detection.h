@@ -30,10 +30,10 @@ struct MoverSearch {
 // Finds movers by their difference from an earlier image of the same scene. The covariance holds
 // for an object that has moved by three pixels or more. After less motion, the images may differ
 // only in slivers of the object. `to_present` maps the earlier image's pixels (full frame) to those
-// of `current`. Edges that are misaligned by a pixel are ignored. A mover's earlier position
-// differs just as its present one does; use two earlier images, or the mover's appearance, to
-// distinguish them. Returns nothing if an image is empty, or if `to_present` is not finite or
-// nearly singular.
+// of `current`. Edges that are misaligned by a pixel are ignored. At a mover's earlier position,
+// the images differ just as at its present one. Use two earlier images, or the mover's appearance,
+// to distinguish the two positions. Returns nothing if an image is empty, or if `to_present` is not
+// finite or nearly singular.
 std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                                           const ReducedFrame& current, const MoverSearch& search);
 

@@ -16,7 +16,7 @@ class PaperTracker {
   PaperTracker(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
                const cv::Rect2d& box);
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
-  // From the previous frame to the newest one; nullopt without texture.
+  // The camera's motion from the previous frame to the newest one; nullopt without texture.
   const std::optional<ImageMotion>& image_motion() const { return scene_motion_.image_motion(); }
   // In the paper, the operator designates the target again. Here the particles move to the given
   // place.

@@ -88,7 +88,7 @@ class Reacquisition {
   Particle believed_;
   double believed_identity_ = 1.0;  // value when the target was last believed
   double identity_ = 1.0;
-  // The target was measured in this frame; in the previous frame.
+  // Whether the target was measured in this frame, and in the previous one.
   bool measured_ = false, measured_before_ = false;
   double time_s_;
   double unaligned_since_s_ = -std::numeric_limits<double>::infinity();

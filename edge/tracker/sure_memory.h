@@ -1,5 +1,6 @@
-// Stores the target's state when it was last followed with certainty. The tracker returns to this
-// state when it notices that it follows another object and has learnt that object's appearance.
+// Stores the state of the target at the time when it was last followed with certainty. The tracker
+// returns to this state when it notices that it follows another object and has learnt that object's
+// appearance.
 #pragma once
 
 #include <optional>

@@ -67,7 +67,8 @@ struct TrackerConfig {
   double difference_fraction = 0.2;
   double leap_most_px_s = 1500.0;
   // Share of the particles that are redrawn over the search region while the target is searched
-  // for. The region's 1-sigma grows at this rate, up to this maximum.
+  // for. search_growth_px_s: the rate at which the region's 1-sigma grows. search_sd_most_px: its
+  // maximum.
   double search_fraction = 0.4;
   double search_growth_px_s = 40.0;
   double search_sd_most_px = 120.0;

@@ -23,7 +23,7 @@ class TrackerCore {
 
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
-  // From the previous frame to the newest one; nullopt without texture.
+  // The camera's motion from the previous frame to the newest one; nullopt without texture.
   const std::optional<ImageMotion>& image_motion() const { return scene_motion_.image_motion(); }
 
  private:
