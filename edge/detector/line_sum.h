@@ -28,9 +28,9 @@ class LineSum {
   // point is elsewhere. Takes ten times as long.
   double along_without_scene(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                              std::size_t images) const;
-  // Like along_without_scene(). However, sums along parallel paths around it may vary more than in
-  // white noise, because of a texture, such as a cloud's, that moves along with the point. The sum
-  // is then divided by their standard deviation instead.
+  // Like along_without_scene(), but for a texture that moves along with the point, such as a
+  // cloud's. There, sums along neighbouring parallel paths vary more than in white noise. If they
+  // do, the sum is divided by the standard deviation of those sums.
   double along_without_texture(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                                std::size_t images) const;
 

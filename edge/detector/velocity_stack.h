@@ -16,11 +16,11 @@ namespace ols::detector {
 class VelocityStack {
  public:
   static constexpr int kImages = 8;
-  static constexpr int kWidth = 64, kHeight = 32;  // of the tile [bins]
-  static constexpr int kMargin = 16;               // on each side [bins]
+  static constexpr int kWidth = 64, kHeight = 32;  // [bins] size of the tile
+  static constexpr int kMargin = 16;               // [bins] on each side
   static constexpr int kStride = kWidth + 2 * kMargin, kRows = kHeight + 2 * kMargin;
   static constexpr int kFastest = 2;  // [bins per image] highest speed on each axis
-  // velocities: -kSteps .. kSteps, in 1/4 bin per image
+  // Velocities on each axis: -kSteps .. kSteps, in 1/4 bin per image.
   static constexpr int kSteps = 4 * kFastest;
   static constexpr std::uint8_t kZero = 128;  // the value that means zero
 
