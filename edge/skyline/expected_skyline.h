@@ -27,9 +27,9 @@ struct PictureView {
   double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
 };
 
-// The map's skyline. Nearer land may be lower than the crest by less than two of its sigmas. With
-// the map's errors, it may then cover the crest; therefore, its sigma is used if it is greater.
-// nullopt where the land is unknown.
+// The map's skyline. Suppose that nearer land is lower than the crest by less than two sigmas of
+// the nearer land. It may then really cover the crest; therefore, the greater of the two sigmas is
+// returned. nullopt where the land is unknown.
 std::optional<land::Skyline> uncertain_skyline(const land::HorizonMap& map, double azimuth_rad);
 
 // The row of the land's skyline in each strip of a picture. The sigmas contain kHeadingSd_rad and

@@ -8,7 +8,7 @@
 //   begun UTIME_us
 //   camera X_m Y_m Z_m                    (ECEF)
 //   COLUMN ELEVATION_deg SD_deg HIDES_FROM_m DISAGREES
-//   ...                                   (ascending columns, each of 0.05 degrees from north)
+//   ...                                   (ascending columns of 0.05 degrees, counted from north)
 //   sum HEX                               (FNV-1a, 64 bits, of everything before this line)
 #pragma once
 
@@ -44,7 +44,8 @@ struct SavedSkyline {
 
 std::string to_text(const SavedSkyline& saved);
 
-// Returns the skyline, or an error message that names the wrong line, if any.
+// Returns the skyline, or an error message. The message names the wrong line, unless the checksum
+// is wrong.
 std::variant<SavedSkyline, std::string> saved_skyline_from(std::string_view text);
 
 // The reason why a station with the setup `owner` cannot use `saved`; empty if it can.

@@ -18,8 +18,8 @@ struct SkylinePart {
   std::vector<land::SeenSkyline::Column> columns;  // all columns of this sector that have been seen
 };
 
-// Each call returns the next sector in which anything has been seen; after the last sector follows
-// the first.
+// Each call returns the next sector in which anything has been seen. After the last sector, the
+// calls begin again with the first.
 class SkylineParts {
  public:
   SkylinePart next(const HidingSkyline& skyline, bool heading_disagrees);

@@ -77,7 +77,8 @@ class SkylineWatch {
   // While the land does not fit, a new map is tried already after this distance, because the first
   // position fix may have been wrong.
   static constexpr double kAgain_m = 0.5;
-  // The edge of a cloud moves by more than kSame_rad within kApart_s.
+  // For hiding(): the edge of a cloud moves by more than kSame_rad within kApart_s, and therefore
+  // does not count as an obstacle.
   static constexpr int kPictures = 3;
   static constexpr double kApart_s = 120.0, kSame_rad = radians(0.2);
   static constexpr double kKept_s = 86'400.0;
