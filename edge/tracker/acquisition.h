@@ -1,7 +1,6 @@
 // Finds a target without a designation: a compact object near the expected pixel. The object must
 // move against the background as expected, or be the only object in front of a smooth background.
-// The conditions are strict, because a wrong object is worse than none. Deterministic; uses neither
-// clocks nor files.
+// The conditions are strict, because a wrong object is worse than none. Pure and deterministic.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // Detects small objects that move relative to the scene, anywhere in the image. They are candidates
-// for a lost target. Deterministic and without state.
+// for a lost target. Pure and deterministic.
 #pragma once
 
 #include <Eigen/Core>

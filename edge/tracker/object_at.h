@@ -1,5 +1,5 @@
 // Finds the object at which a person points: a compact object, at or near a pixel, that contrasts
-// with its surroundings. Without state.
+// with its surroundings. Pure.
 #pragma once
 
 #include <Eigen/Core>
