@@ -1,5 +1,5 @@
 // Computes the rows of a picture at which the map of the land expects the skyline, and the
-// directions of the skyline that was found in it. Without state.
+// directions of the skyline that was found in it. Pure.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // Saves a station's seen skyline, so that it survives a restart: converts it to the text of a file
-// and back. The file has these lines:
+// and back. Pure. The file has these lines:
 //
 //   ols-skyline 1
 //   station ID

@@ -1,5 +1,4 @@
-// Combines the seen skyline with the map at one azimuth, according to the errors of both. Without
-// state.
+// Combines the seen skyline with the map at one azimuth, according to the errors of both. Pure.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Averages the skyline that a station's recent pictures show, for each azimuth.
+// Averages the skyline that a station's recent pictures show, for each azimuth. Pure.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 // Finds the edge between sky and land in a picture, near the rows at which a model expects it.
-// Without state.
+// Pure.
 //
 // The picture is divided into strips of two columns. In each strip, every row near the expected one
 // gets a likelihood of being the edge: the brightness above it must vary as in this picture's sky,

@@ -1,5 +1,5 @@
 // Estimates the error of a station's heading, by comparing the seen skyline with the skyline of the
-// land. Without state.
+// land. Pure.
 //
 // The model of their difference at one azimuth:
 //

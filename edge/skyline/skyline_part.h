@@ -1,4 +1,4 @@
-// Divides the seen skyline into parts that fit into a message.
+// Divides the seen skyline into parts that fit into a message. Pure.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // Compares a station's pictures with the skyline of the land, one picture after the other. A
 // picture takes some tens of milliseconds. The first picture at a new place takes seconds, because
-// the map of the horizon is computed for that place.
+// the map of the horizon is computed for that place. Pure.
 #pragma once
 
 #include <Eigen/Core>
