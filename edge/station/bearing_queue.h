@@ -1,5 +1,5 @@
 // Keeps pixels of the followed target and of detected objects until the PTU angles at their
-// exposure are known. Then computes bearings from them.
+// exposure are known. Then computes bearings from them. Pure.
 #pragma once
 
 #include <cstdint>

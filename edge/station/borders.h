@@ -1,5 +1,5 @@
 // Computes the directions that bound the region in which a unit may point: the borders of its
-// travel, and of each keep-out region. They are drawn on the map and in pictures. Without state.
+// travel, and of each keep-out region. They are drawn on the map and in pictures. Pure.
 #pragma once
 
 #include <array>

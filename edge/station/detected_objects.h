@@ -1,5 +1,5 @@
 // Chooses the pictures that a station's detector processes, and handles the objects that the
-// detector finds.
+// detector finds. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The state of a station: what controls its unit (nothing, the operator, the tracked target, the
-// fusion's slews, or a stop).
+// fusion's slews, or a stop). Pure.
 #pragma once
 
 #include <map>

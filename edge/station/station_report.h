@@ -1,4 +1,4 @@
-// The content of a station's status message.
+// The content of a station's status message. Pure.
 #pragma once
 
 #include <cstdint>

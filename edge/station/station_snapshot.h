@@ -1,4 +1,4 @@
-// Makes the station's summary for status messages, and the frame for viewers. Without state.
+// Makes the station's summary for status messages, and the frame for viewers. Pure.
 #pragma once
 
 #include "edge/camera/frame.h"

@@ -1,4 +1,4 @@
-// The inputs and outputs of a station: states, commands, bearings.
+// The inputs and outputs of a station: states, commands, bearings. Pure.
 #pragma once
 
 #include <cstdint>
