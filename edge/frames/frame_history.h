@@ -1,7 +1,7 @@
 // Keeps the frames of the last few seconds. They are needed because an operator may designate an
 // object in an image that is not the newest, and because acquisition compares images. The span
 // limits the memory: at 1280 x 960 and 30 Hz, a second of grey frames takes 37 MB; a Bayer mosaic
-// doubles this.
+// doubles this. Pure.
 #pragma once
 
 #include <cstddef>

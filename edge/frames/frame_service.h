@@ -1,5 +1,5 @@
 // Provides full-resolution frames for a calibration, on request. Each frame comes with the unit's
-// readings at its exposure. It is the first frame at which the unit stands as requested.
+// readings at its exposure. It is the first frame at which the unit stands as requested. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Converts the motion between two images to a turn of the mount. Without state.
+// Converts the motion between two images to a turn of the mount. Pure.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // Converts between directions and PTU angles. It uses the station's position and tilt, and the
-// unit's reported angles, calibrated errors and travel limits.
+// unit's reported angles, calibrated errors and travel limits. Pure.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // Chooses the bearings that are published together with their raw pixel and encoder counts: the
 // last bearing before each whole second of UTC, and the first one after it. The sightings of
-// several stations can then be interpolated to the same times.
+// several stations can then be interpolated to the same times. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Chooses the pictures in which the skyline of the land is searched for: those of a camera at rest.
-// Without state.
+// Pure.
 #pragma once
 
 #include <deque>
