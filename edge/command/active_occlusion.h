@@ -1,5 +1,5 @@
 // Keeps the fusion's newest prediction about a target that the land hides, as long as the
-// prediction is valid.
+// prediction is valid. Pure.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Keeps the newest slew of this station until the slew's lease ends.
+// Keeps the newest slew of this station until the slew's lease ends. Pure.
 #pragma once
 
 #include <optional>

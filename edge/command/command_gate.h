@@ -1,4 +1,4 @@
-// Accepts each command once, and only while the command is fresh.
+// Accepts each command once, and only while the command is fresh. Pure.
 //
 // LCM does not protect against replayed messages, and the bus may run without signatures
 // (base/trust/). Therefore, the gate remembers each command: its sender's boot id, its sequence

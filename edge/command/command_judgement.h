@@ -1,5 +1,4 @@
-// Decides whether a command may be carried out in the present situation, and if not, why. Without
-// state.
+// Decides whether a command may be carried out in the present situation, and if not, why. Pure.
 #pragma once
 
 #include "edge/frames/pointing_model.h"

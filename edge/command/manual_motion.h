@@ -1,5 +1,5 @@
 // Keeps the motion that an operator commands: either angles that the unit must reach, or rates that
-// are valid for their lease.
+// are valid for their lease. Pure.
 #pragma once
 
 #include <optional>

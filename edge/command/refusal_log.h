@@ -1,6 +1,6 @@
 // Records messages that the station refused, and messages that were refused before they reached it.
 // It keeps their number, the text of the last refusal, and an alarm if CommandGate repeatedly
-// refuses commands.
+// refuses commands. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Raises an alarm if commands are repeatedly refused before they reach the station. A legitimate
-// sender may be locked out, and its operator should learn why.
+// sender may be locked out, and its operator should learn why. Pure.
 #pragma once
 
 #include <array>

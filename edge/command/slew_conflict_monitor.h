@@ -1,4 +1,4 @@
-// Detects that two fusions slew this station.
+// Detects that two fusions slew this station. Pure.
 //
 // After a restart, a fusion is a new sender, and the previous sender falls silent. If slews of two
 // senders alternate, two fusions are running.
