@@ -1,5 +1,5 @@
 // A pan-tilt unit with a calibration. It converts between the angles that the unit reports and
-// ideal angles.
+// ideal angles. Pure.
 #pragma once
 
 #include "edge/mount/approach_history.h"

@@ -1,4 +1,4 @@
-// A station's report on its calibration.
+// A station's report on its calibration. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Records whether a station's reference views are checked at all. Without this record, a missing
-// check would look like a good result.
+// check would look like a good result. Pure.
 #pragma once
 
 #include <optional>

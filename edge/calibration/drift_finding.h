@@ -1,5 +1,5 @@
 // Compares views of the scenery with the pictures stored at the calibration. Finds out whether the
-// tripod has turned, an axis has lost steps, or something else has moved. Without state.
+// tripod has turned, an axis has lost steps, or something else has moved. Pure.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Follows a station's drift from one check of its reference views to the next. A finding counts
-// only after a second check has confirmed it. A finding never corrects angles.
+// only after a second check has confirmed it. A finding never corrects angles. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Compares the size of a count that a unit reports with that of a calibration. Without state.
+// Compares the size of a count that a unit reports with that of a calibration. Pure.
 #pragma once
 
 #include "geometry/station_model.h"

@@ -1,5 +1,4 @@
-// Measures how far a camera's direction has turned since a stored picture of the same view. Without
-// state.
+// Measures how far a camera's direction has turned since a stored picture of the same view. Pure.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -1,6 +1,6 @@
 // Plans the rounds over a station's reference views: fixed directions of which pictures were stored
 // after the calibration. While the station is free, the unit goes from view to view, and stops at
-// each until a picture is taken. It approaches each view from the same side in every round.
+// each until a picture is taken. It approaches each view from the same side in every round. Pure.
 #pragma once
 
 #include <cstddef>
