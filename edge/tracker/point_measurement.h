@@ -12,7 +12,7 @@ inline constexpr double kSamePattern = 0.5;
 
 struct MeasuredPoint {
   Eigen::Vector2d pixel;
-  Eigen::Matrix2d covariance_px2;  // without the configured minimum
+  Eigen::Matrix2d covariance_px2;  // without TrackerConfig::pixel_sd_floor_px
 };
 
 class PointMeasurement {

@@ -39,8 +39,8 @@ class PositionRefiner {
   PositionRefiner(const FrameView& view, const Eigen::Vector2d& pixel,
                   const Eigen::Vector2d& size_px);
 
-  // Sets M_t. From now on, pixels that are not foreground have little weight, because they move
-  // differently.
+  // Sets the template's foreground mask, M_t of eq. (5). From now on, pixels that are not
+  // foreground have little weight, because they move differently.
   void set_mask(const MaskPatch& mask);
 
   // Fits the stored image to `view`. `start`: the approximate centre; its error may be up to about

@@ -71,7 +71,8 @@ class TargetModel {
   // the target's size before that.
   void restart_size(const Eigen::Vector2d& size_px);
 
-  // Learns M_t, once: the foreground of a candidate that is certainly the target.
+  // Learns the target's foreground mask, M_t of eq. (5), once: the foreground of a candidate that
+  // is certainly the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
   // The best fit of a box of this size. The error of `start` may be up to about a third of the
