@@ -22,7 +22,7 @@ struct Detection {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();    // centre, in pixels of the full frame
   Eigen::Vector2d size_px = Eigen::Vector2d::Zero();  // width and height of its box
   double signal_to_noise = 0.0;                       // signal-to-noise ratio of its peak
-  bool brighter = false;  // brighter than its surroundings; a kMover has false
+  bool brighter = false;  // brighter than its surroundings; always false for a kMover
   Evidence evidence = Evidence::kSpot;
   bool clear = false;                       // a spot with nothing similar in its wider surroundings
   std::optional<Path> path = std::nullopt;  // only of a kStack

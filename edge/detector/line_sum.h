@@ -1,5 +1,5 @@
 // Sums the last images along the straight path of a point. Unlike a shift and stack, it does not
-// round the places.
+// round places to whole bins.
 #pragma once
 
 #include <Eigen/Core>

@@ -80,7 +80,7 @@ class Tracklet {
   double star_path_px() const { return (star_ - origin_).norm(); }
   // Whether it has hardly moved relative to the scene during the last three seconds.
   bool rests() const { return rests_; }
-  // Call if the camera's motion was unknown: forgets its way so far.
+  // Call if the camera's motion was unknown: the path begins anew at the present place.
   void forget_way();
 
  private:
