@@ -93,9 +93,9 @@ class Station {
   // Until the first call, the pose is that of the configured geometry. Without a position, the
   // station sends no bearings.
   void set_pose(const sensors::StationPose& pose) { pointing_.set_pose(pose); }
-  // Takes the level of the emergency stop's input. Call it even if the level has not changed. After
-  // a press, nothing moves until three things have happened: the stop has been released, rearm()
-  // has been accepted, and a new command has arrived.
+  // Takes the state of the emergency stop. Call it even if this state has not changed. After a
+  // press, nothing moves until three things have happened: the stop has been released, rearm() has
+  // been accepted, and a new command has arrived.
   void emergency_stop(bool pressed, double now_s);
 
   // Commands. A refused command changes nothing but counters. There is one exception: a slew to an

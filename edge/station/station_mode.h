@@ -24,7 +24,7 @@ class StationMode {
   // Adds elapsed time to the present state.
   void count_seconds(double seconds);
 
-  // Sets the emergency stop's level.
+  // Sets whether the emergency stop is pressed.
   void set_pressed(bool pressed) { pressed_ = pressed; }
   bool is_pressed() const { return pressed_; }
   // After a stop, only re-arming is accepted for this time.
