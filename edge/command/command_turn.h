@@ -1,6 +1,6 @@
 // Collects the operator's commands during one cycle of the control loop. Only the newest
 // designation of a cycle is carried out, because each one makes the tracker process all frames
-// since the designated image. A stop never waits for a designation. Pure.
+// since the image in which the object was designated. A stop never waits for a designation. Pure.
 #pragma once
 
 #include <atomic>
