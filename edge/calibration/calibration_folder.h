@@ -29,7 +29,7 @@ std::int64_t calibration_id_of(std::string_view instrument, std::string_view set
 
 // Reads the folder. Throws ConfigError, CsvError, std::invalid_argument or std::system_error,
 // naming file, line and key, in these cases: something is missing or malformed; a file was edited
-// afterwards; the folder is from another station; or serial numbers differ from the
+// after the adjustment; the folder is from another station; or serial numbers differ from the
 // configuration's.
 CalibrationFiles read_calibration(const std::string& folder, const StationSettings& settings);
 

@@ -1,5 +1,5 @@
-// Notices when a new calibration is accepted while the station runs: the configured folder then
-// links to another folder. Reads that folder in its own thread.
+// Notices when a new calibration is accepted while the station runs: the configured path then links
+// to another folder. Reads that folder in its own thread.
 #pragma once
 
 #include <future>
