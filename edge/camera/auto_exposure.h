@@ -1,10 +1,10 @@
 // Automatic exposure that protects the target's contrast. Pure.
 //
-// Up to saturation, gray levels grow with the light, and so does the contrast between target and
-// surround. The exposure therefore brings the brighter of the two to a level just below saturation,
-// and ignores the rest of the image. Without a target, the mean of the whole image is brought to a
-// middle level. Exposure is raised before gain, because gain also amplifies noise. Motion blur
-// limits the exposure.
+// Gray levels grow with the light until they saturate, and the contrast between target and surround
+// grows with them. The exposure therefore brings the brighter of target and surround to a level
+// just below saturation, and ignores the rest of the image. Without a target, it brings the mean of
+// the whole image to a medium level. The exposure time is raised before the gain, because gain also
+// amplifies noise. The exposure time is limited, because a longer one blurs moving objects.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -16,24 +16,25 @@ namespace ols::camera {
 
 // Gray levels of an image, or of a target and its surround.
 struct PictureLevels {
-  bool target = false;     // true: the levels are those of a target; false: of the whole image
-  double mean = 0.0;       // of the whole image; if there is a target, of its surround
-  double bright = 0.0;     // 95 % quantile of the brighter one of target and surround
-  double saturated = 0.0;  // share of saturated pixels in it
+  bool target = false;     // true: levels of a target and its surround; false: of the whole image
+  double mean = 0.0;       // of the surround if there is a target, otherwise of the whole image
+  double bright = 0.0;     // 95 % quantile; the larger one of target and surround
+  double saturated = 0.0;  // share of saturated pixels; the larger one of target and surround
 };
 
-// `gray`: 8-bit. The surround is the ring around the box, three times its size. A box outside the
-// image is ignored.
+// `gray`: 8-bit. The surround is a box of three times the width and height around the target's box,
+// without the target's box. If fewer than nine pixels of target or surround lie in the image, the
+// whole image is measured.
 PictureLevels measure_levels(const cv::Mat& gray, const std::optional<cv::Rect2d>& target_box);
 
 struct AutoExposureConfig {
-  // Wanted gray level of the brighter of target and surround.
+  // Desired gray level of the brighter of target and surround.
   double bright_level = 200.0;
-  double mean_level = 110.0;     // wanted mean of the image, if there is no target
-  double dead_band = 0.12;       // a smaller relative error of the light is ignored
-  double damping = 0.7;          // share of the (logarithmic) error that one change corrects
+  double mean_level = 110.0;  // desired mean of the image if there is no target
+  double dead_band = 0.12;    // relative errors of the light below this are ignored
+  double damping = 0.7;  // share of the error (of the light's logarithm) that one change corrects
   double greatest_factor = 2.0;  // largest factor of one change
-  int settle_frames = 4;  // number of frames between changes, so that a change becomes visible
+  int settle_frames = 4;  // number of frames to wait after a change until its effect is visible
 };
 
 class AutoExposure {
@@ -41,13 +42,13 @@ class AutoExposure {
   AutoExposure(const AutoExposureConfig& config, const ExposureLimits& limits,
                const ExposureSetting& start);
 
-  // Call for each frame. Returns the next setting if a change is needed. The caller sets the camera
-  // and passes the camera's actual values to applied().
+  // Call for each frame. Returns the new setting if a change is needed. The caller then sets the
+  // camera and passes the values that the camera has actually taken to applied().
   std::optional<ExposureSetting> step(const PictureLevels& levels);
   void applied(const ExposureSetting& setting) { setting_ = setting; }
 
-  // The factor by which the image is too dark (> 1) or too bright (< 1) at the limits of exposure
-  // and gain.
+  // The factor by which the light would have to change beyond the limits of exposure and gain: > 1
+  // if the image remains too dark, < 1 if it remains too bright, 1 if the limits suffice.
   double missing_factor() const { return missing_; }
 
  private:

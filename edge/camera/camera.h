@@ -1,7 +1,8 @@
-// What a station needs from its camera.
+// The interface of all kinds of cameras.
 //
-// The camera may be absent, vanish and come back at any time. Then next() returns no frame, and the
-// report says why. Every method may be called from any thread, and none throws.
+// The camera may be absent at the start, disappear and return at any time. While it is absent,
+// next() returns no frame, and report() states the reason. Every method may be called from any
+// thread, and none throws.
 #pragma once
 
 #include <optional>
@@ -18,13 +19,14 @@ class Camera {
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
 
-  // The newest frame, unless it was taken already; waits up to timeout_s for one.
+  // Returns the newest frame, each frame only once. If there is no new one, waits up to timeout_s
+  // for it; then nullopt.
   virtual std::optional<Frame> next(double timeout_s) = 0;
   // Sets the target's box, for automatic exposure; nullopt if there is no target.
   virtual void set_region(const std::optional<cv::Rect2d>& target_box) = 0;
-  // Starts one exposure. This has an effect only in trigger mode kSoftware.
+  // Starts one exposure. Has an effect only with TriggerMode::kSoftware.
   virtual void trigger() = 0;
-  // The report's name is "camera" for every kind.
+  // The `name` in the report is "camera" for every kind of camera.
   virtual device::DeviceReport report() const = 0;
 };
 

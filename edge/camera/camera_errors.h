@@ -1,4 +1,4 @@
-// Errors that say why a camera cannot be used.
+// Exceptions for cameras that cannot be used. Each contains the alarm that states the reason.
 #pragma once
 
 #include <stdexcept>

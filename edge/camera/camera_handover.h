@@ -17,16 +17,16 @@ namespace ols::camera {
 
 class CameraHandover {
  public:
-  // For the callers; see Camera.
+  // For the callers; the meaning is that of the functions of Camera.
   std::optional<Frame> next(double timeout_s);
   void set_region(const std::optional<cv::Rect2d>& target_box);
   void ask_trigger();
   CameraFacts facts() const;
 
-  // Makes the camera's thread end.
+  // Requests the end of the camera's thread.
   void end();
   bool ended() const;
-  // Returns after this time, or as soon as the thread is to end.
+  // Waits for this time, but not longer than until end() is called.
   void wait(double duration_s);
 
   // For the camera's thread.
@@ -37,13 +37,14 @@ class CameraHandover {
     const std::lock_guard lock(mutex_);
     change(facts_);
   }
-  // Takes a complete frame as configured; `lost`: number of frames missing before it. The frame may
-  // have no pixels if a newer one is already waiting.
+  // Hands over a complete frame of the configured size and format. If a newer frame is already
+  // waiting, this one may come without pixels; it is then only counted. `lost`, here and below:
+  // number of frames missing before this one.
   void publish(Frame frame, std::uint64_t lost, const FrameStatistics& statistics);
-  // Notes that the camera was opened; its first frame has not arrived yet.
+  // Notes that the camera was opened and has not sent a frame yet.
   void note_opened(const std::string& identity, const std::string& serial = {});
   void note_incomplete(std::uint64_t lost, const FrameStatistics& statistics);
-  // Notes a complete frame that differs from the configuration.
+  // Notes a complete frame whose size or format differs from the configuration.
   void note_refused(PictureRefusal why, std::uint64_t lost, const FrameStatistics& statistics);
   // Notes that the camera is lost, or cannot be opened.
   void note_failure(CameraState state, const Alarm& failure);

@@ -1,4 +1,4 @@
-// A kind of camera: its keys in [camera], and the way to open it.
+// A kind of camera: its keys in the configuration section [camera], and a function that opens it.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@ namespace ols::camera {
 class CameraKind {
  public:
   virtual ~CameraKind() = default;
-  virtual config::Section section() = 0;  // the section refers to this object
+  virtual config::Section section() = 0;  // binds its keys to this object's members
   virtual const CameraConfig& config() const = 0;
-  virtual std::string address() const = 0;  // in words: the camera for which it looks
-  // Starts to look for the camera and returns at once. `keep_raw`: the camera also keeps its raw
-  // images, for a recorder and for the tracker's colours.
+  virtual std::string address() const = 0;  // device path, id or URL of the camera, for messages
+  // Starts the camera's thread, which connects to the camera, and returns at once. `keep_raw`:
+  // frames also contain the raw image, for the recorder and for the colours of the tracker.
   virtual std::unique_ptr<Camera> open(bool keep_raw) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The camera's state in the words of the status message. Pure.
+// The camera's state, and the report about it in the station's status message. Pure.
 #pragma once
 
 #include <cstdint>
@@ -30,11 +30,11 @@ struct CameraCounters {                 // they only increase
   std::uint64_t frames_incomplete = 0;  // frames with missing packets
   std::uint64_t frames_late = 0;  // captured frames that were replaced by a newer one before next()
   std::uint64_t frames_refused = 0;  // frames of wrong size or format
-  // Number of times that the camera was opened again after it had streamed or failed.
+  // Number of times that the camera was opened again, after the first time.
   std::uint64_t reconnects = 0;
 };
 
-// The camera's state as its thread knows it.
+// The facts from which the report is made.
 struct CameraFacts {
   CameraState state = CameraState::kAbsent;
   CameraCounters counters;
@@ -46,8 +46,8 @@ struct CameraFacts {
   Alarm fault;           // empty if there is no fault
   std::optional<double> last_frame_s;  // CLOCK_MONOTONIC of the last complete frame's arrival
   std::optional<double> opened_s;      // CLOCK_MONOTONIC when the camera was last opened
-  double frame_rate_hz = 0.0;          // recent value
-  double incomplete_share = 0.0;       // recent value
+  double frame_rate_hz = 0.0;          // over the last five seconds
+  double incomplete_share = 0.0;       // over the last five seconds
   ExposureSetting exposure;
   double missing_light = 1.0;  // AutoExposure::missing_factor()
   std::optional<double> temperature_degC;
@@ -55,17 +55,18 @@ struct CameraFacts {
   double stamp_sd_s = 0.0;
   std::optional<PtpState> ptp;  // set if PTP is configured
   std::optional<double> ptp_disagreement_s;
-  // Data that only this kind of camera reports.
+  // Data that only some kinds of cameras report.
   std::vector<Alarm> kind_alarms;
   std::map<std::string, double> kind_readings;
   std::map<std::string, std::uint64_t> kind_counters;
 };
 
-// If a larger share of the recent frames lacks packets, the camera is faulty.
+// If the share of incomplete frames among the recent ones is larger than this, the camera is
+// reported as faulty.
 inline constexpr double kManyIncomplete = 0.02;
 
-// The alarm for a camera that has been sending for `open_s`; nullopt if its rate is about the
-// configured one, or not known yet.
+// The alarm about a wrong frame rate. `open_s`: time since the camera was opened. nullopt if the
+// rate is about the configured one, or not known yet.
 std::optional<Alarm> rate_alarm(const CameraConfig& config, double rate_hz, double open_s);
 
 device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,

@@ -1,4 +1,4 @@
-// The settings of an exposure.
+// Exposure time and gain of a camera, and their limits.
 #pragma once
 
 namespace ols::camera {

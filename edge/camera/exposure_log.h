@@ -1,10 +1,10 @@
-// Determines the exposure time of a frame if the exposure changes during streaming. Pure.
+// Determines the exposure time of each frame while the exposure changes from time to time. Pure.
 //
-// The camera does not report the setting of a frame (the chunk data of a GT1290C cannot be switched
-// on while it streams). A frame that began before the change was requested has the old exposure. A
-// frame that began more than a frame period after the change was granted has the new exposure. For
-// frames in between, both are possible, because the camera may already have set up its next
-// exposure.
+// The camera does not report the exposure of a frame: the chunk data of a GT1290C cannot be
+// switched on while it streams. A frame that began before a change was requested has the old
+// exposure. A frame that began more than a frame period after the camera confirmed the change has
+// the new one. For frames in between, both are possible, because the camera may have prepared its
+// next exposure before the change.
 #pragma once
 
 #include <deque>
@@ -22,12 +22,14 @@ class ExposureLog {
   ExposureLog(double first_s, double frame_period_s)
       : first_s_(first_s), frame_period_s_(frame_period_s) {}
 
-  // Notes the instants (CLOCK_MONOTONIC) at which a new exposure was requested and granted.
+  // Notes a change: the new exposure, and the instants (CLOCK_MONOTONIC) at which it was requested
+  // and confirmed.
   void change(double asked_s, double granted_s, double exposure_s);
 
   double newest_s() const { return changes_.empty() ? first_s_ : changes_.back().exposure_s; }
 
-  // The exposure of the frame that began at `start_s`.
+  // The exposure of the frame whose exposure began at `start_s`. If two are possible, the result is
+  // their mean.
   ExposureUsed at(double start_s) const;
 
  private:

@@ -1,4 +1,4 @@
-// Computes the exposure time of a frame on the station's monotonic clock. Pure.
+// Computes the mid-exposure time of a frame on the station's monotonic clock. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,7 @@
 
 namespace ols::camera {
 
-// The instant of the exposure to which the camera's time stamp refers; it depends on the camera
-// model.
+// The instant that the camera's time stamp refers to; it depends on the camera's model.
 enum class StampAt { kExposureStart, kExposureEnd };
 
 struct FrameTime {
@@ -20,18 +19,19 @@ struct FrameTime {
   StampSource source = StampSource::kCamera;
 };
 
-// Converts TAI (the time of a PTP slave) to the station's monotonic clock, by means of the
+// Converts TAI, the time of a PTP slave, to the station's monotonic clock. Computed from the
 // station's UTC and the leap seconds.
 struct TaiReference {
   std::int64_t monotonic_minus_tai_ns = 0;
-  double sd_s = 0.0;  // 1-sigma of the station's UTC and of the master together
+  double sd_s = 0.0;  // 1-sigma of the station's UTC and of the PTP master's time together
 };
 
 class FrameClock {
  public:
   struct Config {
     StampAt stamp_at = StampAt::kExposureStart;
-    double readout_s = 0.010;  // from the end of the exposure to the arrival
+    // from the end of the exposure to the arrival of the frame's first packet
+    double readout_s = 0.010;
     double readout_sd_s = 0.010;
     ClockMap::Config map;
   };
@@ -40,14 +40,15 @@ class FrameClock {
   ClockMap& map() { return map_; }
 
   // Call with a reference while the camera's clock is TAI and the station's UTC can be trusted,
-  // otherwise with nullopt. The reference is a second source besides the latches. The more accurate
-  // source is used, but the latches if the two disagree.
+  // otherwise with nullopt. The reference is a second source of a frame's time besides the latches.
+  // The more accurate source is used; if the two disagree, the latches are used.
   void set_tai(const std::optional<TaiReference>& reference) { tai_ = reference; }
-  // PTP minus latches [s]; set only if their uncertainties do not explain the difference.
+  // Time by PTP minus time by the latches [s]; set only if their uncertainties do not explain the
+  // difference.
   std::optional<double> tai_disagreement_s() const { return tai_disagreement_s_; }
 
-  // `device_ns`: the camera's own stamp; nullopt if it has none. `arrival_s`: arrival of the
-  // frame's first packet.
+  // `device_ns`: the camera's stamp of the frame; nullopt if there is none. `arrival_s`:
+  // CLOCK_MONOTONIC at the arrival of the frame's first packet.
   FrameTime stamp(std::optional<std::int64_t> device_ns, double arrival_s,
                   const ExposureLog& exposures);
 

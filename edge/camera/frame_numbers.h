@@ -1,4 +1,4 @@
-// Unwraps the camera's frame numbers, and counts missing frames. Pure.
+// Extends the camera's frame numbers beyond their 16 bits, and counts missing frames. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ class FrameNumbers {
     std::uint64_t lost = 0;    // number of frames missing since the previous one
   };
 
-  // Takes the number of a frame: 16 bits from 1 to 65535 (GigE Vision 1.x; 0 is skipped), or 64
-  // bits. A number that does not increase means that the camera has restarted.
+  // Takes a frame's number from the camera. It has 16 bits and runs from 1 to 65535 (GigE Vision
+  // 1.x, which skips 0), or it has 64 bits. If it does not increase, the camera has restarted its
+  // numbering.
   Step next(std::uint64_t id);
 
-  // Notes that the camera was reopened, so that a gap before its next number does not count as a
-  // loss.
+  // Notes that the camera was reopened. A gap before its next number then does not count as a loss.
   void restart() { running_ = false; }
 
  private:

@@ -1,4 +1,4 @@
-// Recent frame rate and losses. Pure.
+// Frame rate and share of incomplete frames over the last five seconds. Pure.
 #pragma once
 
 #include <cstddef>

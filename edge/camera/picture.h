@@ -1,4 +1,4 @@
-// Converts the bytes of a camera's frame to the tracker's gray image. Pure.
+// Checks the raw image of a camera and converts it to gray, for the tracker. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace ols::camera {
 
-// GenICam's (PFNC) codes of the supported pixel formats.
+// The supported pixel formats, with their codes in GenICam's PFNC.
 enum class PixelFormat : std::uint32_t {
   kMono8 = 0x01080001,
   kBayerGR8 = 0x01080008,
@@ -22,7 +22,7 @@ enum class PixelFormat : std::uint32_t {
 };
 // "Mono8", "BayerRG8", "RGB8", ...
 std::optional<PixelFormat> pixel_format(std::string_view genicam_name);
-// The name for a code; for an unsupported code, its hexadecimal digits.
+// The GenICam name for a PFNC code; for an unsupported code, the code in hexadecimal.
 std::string pixel_format_name(std::uint32_t code);
 
 struct RawPicture {
@@ -44,12 +44,12 @@ const char* to_string(PictureRefusal refusal);
 
 PictureRefusal check(const RawPicture& raw, const PictureFormat& expected);
 
-// Returns the gray image, in memory of its own, because the camera's buffer is reused. `raw` must
-// have passed check().
+// Returns the gray image as a copy, because the camera's buffer is reused. `raw` must have passed
+// check().
 cv::Mat to_gray(const RawPicture& raw);
 
-// Returns a copy of the raw image: a mosaic, or three channels in the camera's order. Empty if the
-// gray image is identical to it.
+// Returns a copy of the raw image: a Bayer mosaic, or three channels in the camera's order. Returns
+// an empty image for Mono8, because the gray image is then the raw image.
 cv::Mat raw_beside_gray(const RawPicture& raw);
 
 }  // namespace ols::camera

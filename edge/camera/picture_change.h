@@ -1,5 +1,6 @@
-// Notices a frozen camera, whose pictures have no new pixels. The encoder turns a frozen image into
-// the same few pictures again and again, one for each position between two key frames. Pure.
+// Detects a frozen camera: one that sends pictures without any new content. Comparing with the last
+// picture is not enough: the camera's encoder codes a frozen image differently at each position
+// between two key frames, and repeats these few pictures. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,8 @@ namespace ols::camera {
 
 class PictureChange {
  public:
-  // Takes a picture. Returns the time since the last picture with new pixels [s].
+  // Takes a picture. Returns the time [s] since the last picture that differed from all recent
+  // ones.
   double unchanged_s(const cv::Mat& gray, double arrival_s);
 
  private:

@@ -1,4 +1,4 @@
-// Interprets what a camera states about its PTP clock. Pure.
+// Interprets the status word of a camera's PTP clock. Pure.
 #pragma once
 
 #include <string_view>
@@ -8,13 +8,13 @@ namespace ols::camera {
 enum class PtpState {
   kOff,
   kSyncing,  // synchronisation is in progress
-  kSlave,    // the camera's clock is that of the master: TAI
-  kMaster,   // the camera is master, or passive next to one; its clock runs free
+  kSlave,    // the camera's clock follows the master's clock, which is TAI
+  kMaster,   // the camera is the master, or passive beside another master; its clock runs free
   kFault,
-  kUnknown,  // an undocumented word
+  kUnknown,  // the word is not documented
 };
 
-// The words differ between firmware versions; sources: AVT's feature reference, GenICam's SFNC 2.x.
+// The words differ between firmware versions. Sources: AVT's feature reference, GenICam's SFNC 2.x.
 PtpState ptp_state(std::string_view status);
 
 }  // namespace ols::camera

@@ -1,4 +1,6 @@
-// Determines how long to wait before a camera is connected again. Pure.
+// Computes the pause before the next attempt to connect to a camera. The pause begins with kFirst_s
+// and doubles with each attempt, up to kLongest_s. After a connection that has delivered pictures
+// for kHealthy_s, it begins anew. Pure.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +13,7 @@ class RetryPause {
   static constexpr double kLongest_s = 30.0;
   static constexpr double kHealthy_s = 10.0;
 
-  // The pause after a stream that delivered pictures for this time.
+  // The pause after a connection that has delivered pictures for `delivered_s`.
   double after_stream(double delivered_s) {
     if (delivered_s >= kHealthy_s) next_s_ = kFirst_s;
     const double pause_s = next_s_;

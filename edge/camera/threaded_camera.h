@@ -1,4 +1,4 @@
-// A camera with a thread of its own, which opens it, and opens it again after each failure.
+// A camera with its own thread. The thread opens the camera, and opens it again after each failure.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace ols::camera {
 
-// What each kind of camera does in that thread.
+// The part of that thread that differs between kinds of cameras.
 class CameraSource {
  public:
   CameraSource() = default;
@@ -20,17 +20,18 @@ class CameraSource {
   CameraSource(const CameraSource&) = delete;
   CameraSource& operator=(const CameraSource&) = delete;
 
-  // Opens the camera, and hands over its frames until the handover has ended. Throws CameraUnfit
-  // if the configuration does not suit the camera, or any other exception if it is absent or lost.
+  // Opens the camera, and hands over its frames until the handover has ended. Throws CameraUnfit if
+  // the configuration does not suit the camera, or another exception if the camera is absent or
+  // lost.
   virtual void serve() = 0;
-  // The time from a failure until the camera is opened again.
+  // The pause between a failure and the next attempt to open the camera.
   virtual double pause_s() = 0;
 };
 
 class ThreadedCamera : public Camera {
  public:
   using MakeSource = std::function<std::unique_ptr<CameraSource>(CameraHandover&)>;
-  // Starts to look for the camera and returns at once.
+  // Starts the thread, which connects to the camera, and returns at once.
   ThreadedCamera(const CameraConfig& config, const MakeSource& make_source);
   ~ThreadedCamera() override;
 
@@ -48,7 +49,7 @@ class ThreadedCamera : public Camera {
   const CameraConfig config_;
   CameraHandover handover_;
   const std::unique_ptr<CameraSource> source_;
-  std::thread thread_;  // last: it uses the rest
+  std::thread thread_;  // the last member, because the thread uses the others
 };
 
 }  // namespace ols::camera

@@ -1,4 +1,4 @@
-// A GigE Vision camera, used through Aravis.
+// A GigE Vision camera, driven through the library Aravis.
 #pragma once
 
 #include "edge/camera/aravis/aravis_config.h"

@@ -1,4 +1,5 @@
-// One opened GigE Vision camera with its stream. Calls block; errors are thrown.
+// One opened GigE Vision camera with its stream. Functions wait for the camera's answer and throw
+// on errors.
 #pragma once
 
 #include <atomic>
@@ -26,14 +27,14 @@ struct Unref {
 template <typename T>
 using Owned = std::unique_ptr<T, Unref>;
 
-// One buffer of the stream. It is valid only within receive()'s `use`.
+// One buffer of the stream. It is valid only during receive()'s call of `use`.
 struct ReceivedFrame {
   std::uint64_t id = 0;  // the camera's frame number
   bool complete = false;
   bool overtaken = false;                 // a newer frame is already waiting
-  RawPicture picture;                     // valid as long as the buffer is
+  RawPicture picture;                     // valid as long as this buffer
   std::optional<std::int64_t> device_ns;  // the camera's own time stamp
-  double arrival_s = 0.0;                 // CLOCK_MONOTONIC at the arrival of its first packet
+  double arrival_s = 0.0;  // CLOCK_MONOTONIC at the arrival of the frame's first packet
 };
 
 class AravisDevice {
@@ -44,7 +45,8 @@ class AravisDevice {
   AravisDevice(const AravisDevice&) = delete;
   AravisDevice& operator=(const AravisDevice&) = delete;
 
-  // Waits for the next buffer and calls use(ReceivedFrame). Returns false if none came in time.
+  // Waits for the next buffer and passes it to `use` as a ReceivedFrame. Returns false if no buffer
+  // came in time.
   template <typename Use>
   bool receive(double timeout_s, Use use) {
     ArvBuffer* buffer = pop(timeout_s);
@@ -57,11 +59,12 @@ class AravisDevice {
   std::string identity() const;  // for example "AVT GT1290C 1234"
   std::string serial() const;    // empty if the camera does not state it
 
-  // Latches the camera's clock; nullopt if the camera cannot do so.
+  // Reads the camera's clock by a latch (clock_map.h); nullopt if the camera cannot latch its
+  // clock.
   std::optional<LatchSample> latch();
   // Whether the camera still answers.
   bool answers();
-  void trigger();  // by software
+  void trigger();  // starts an exposure by a command of the software
 
   // The camera's current exposure and gain, and their limits.
   const ExposureSetting& exposure() const { return exposure_; }
@@ -73,8 +76,8 @@ class AravisDevice {
   std::optional<PtpState> ptp() const;
 
   bool control_lost() const { return control_lost_; }
-  // Notes that the camera is lost, and sends it no more requests. The destructor may still take
-  // seconds, because Aravis tells the camera about the disconnection five times, 0.5 s apart.
+  // Notes that the camera is lost; no more requests are sent to it. The destructor may still take
+  // seconds, because Aravis sends the disconnection to the camera five times, 0.5 s apart.
   void give_up() { gone_ = true; }
 
  private:

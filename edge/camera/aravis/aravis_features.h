@@ -1,5 +1,6 @@
-// The features of an opened camera, by purpose. The GT1290C is older than GenICam's naming
-// convention (SFNC), and SFNC itself has renamed some features. The first name that the camera
+// Accesses the features of an opened camera by their purpose. The names of features differ between
+// cameras: the GT1290C is older than GenICam's naming convention (SFNC), and SFNC itself has
+// renamed some features. Each purpose therefore has several names; the first name that the camera
 // knows is used.
 #pragma once
 
@@ -18,8 +19,8 @@ struct Feature {
   std::array<const char*, 3> names;  // nullptr after the last name
 };
 
-// Numbers (floats or integers). The names are those of SFNC 2.x, then those of the GT1290C ("GigE
-// Camera and Driver Features", AVT) and SFNC 1.x.
+// Features with a number as value, float or integer. The first name is that of SFNC 2.x. The second
+// one is that of the GT1290C ("GigE Camera and Driver Features", AVT) and of SFNC 1.x.
 inline constexpr Feature kExposureTime{"exposure", {"ExposureTime", "ExposureTimeAbs", nullptr}};
 inline constexpr Feature kGain{"gain", {"Gain", "GainRaw", nullptr}};
 inline constexpr Feature kFrameRate{"frame rate",
@@ -28,14 +29,14 @@ inline constexpr Feature kTriggerDelay{"trigger delay",
                                        {"TriggerDelay", "TriggerDelayAbs", nullptr}};
 inline constexpr Feature kTemperature{"temperature", {"DeviceTemperature", nullptr, nullptr}};
 inline constexpr Feature kStreamRate{"stream rate", {"StreamBytesPerSecond", nullptr, nullptr}};
-// Choices.
+// Features with a word as value.
 inline constexpr Feature kPtpStatus{"PTP status", {"PtpStatus", "GevIEEE1588Status", nullptr}};
 inline constexpr Feature kPtpMode{"PTP mode", {"PtpMode", nullptr, nullptr}};
-// Flags.
+// Features with true or false as value.
 inline constexpr Feature kPtpEnable{"PTP", {"PtpEnable", "GevIEEE1588", nullptr}};
 inline constexpr Feature kFrameRateEnable{
     "frame rate control", {"AcquisitionFrameRateEnable", "AcquisitionFrameRateEnabled", nullptr}};
-// Commands.
+// Features that are commands.
 inline constexpr Feature kPtpLatch{"PTP latch",
                                    {"PtpDataSetLatch", "GevIEEE1588DataSetLatch", nullptr}};
 

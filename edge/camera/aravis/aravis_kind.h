@@ -1,4 +1,4 @@
-// GigE Vision cameras as a kind of camera (camera_kind.h).
+// The camera kind for GigE Vision cameras (camera_kind.h).
 #pragma once
 
 #include <memory>

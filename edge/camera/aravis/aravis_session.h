@@ -1,5 +1,5 @@
-// One opened camera, from its first frame until it is lost. Computes the times of its frames,
-// monitors its clock and temperature, and sets its exposure.
+// Operates one opened camera until the camera is lost. Computes the mid-exposure times of the
+// frames, monitors the camera's clock and temperature, and controls the exposure.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,12 @@ namespace ols::camera {
 
 class AravisSession {
  public:
-  // All references must outlive this object. Frame numbers continue those of the previous session.
+  // All references must outlive this object. The frame numbers continue from the previous session.
   AravisSession(const AravisConfig& config, AravisDevice& device, FrameNumbers& numbers,
                 CameraHandover& handover);
 
-  // Runs until the camera's thread is to end. Throws CameraAbsent when the camera is lost.
+  // Returns when the handover has ended (CameraHandover::end()). Throws CameraAbsent when the
+  // camera is lost.
   void stream();
 
  private:

@@ -1,6 +1,6 @@
-// Sets up an opened camera before it streams: image, trigger, exposure, PTP, transport. Each
+// Configures an opened camera before it streams: image, trigger, exposure, PTP, transport. Each
 // function throws CameraUnfit if the camera does not accept the configuration, and CameraAbsent if
-// it no longer answers.
+// the camera no longer answers.
 #pragma once
 
 #include "edge/camera/aravis/aravis_config.h"
@@ -9,12 +9,13 @@ using ArvCamera = struct _ArvCamera;
 
 namespace ols::camera {
 
-// Sets pixel format and size. Reads them back, because some cameras silently keep their own values.
+// Sets pixel format and size. Reads both back, because some cameras silently keep their old values.
 void set_picture(ArvCamera* camera, const AravisConfig& config);
 
 void set_trigger(ArvCamera* camera, const AravisConfig& config);
 
-// Sets exposure and gain as configured, and switches the camera's own automatic control off.
+// Sets exposure and gain as configured, and switches off the camera's own automatic control.
+// Returns the camera's actual values.
 ExposureSetting set_first_exposure(ArvCamera* camera, const AravisConfig& config);
 
 // Returns the camera's actual values.

@@ -10,22 +10,22 @@
 
 namespace ols::camera {
 
-// Starts GStreamer, at the first call only. GStreamer then starts no helper process to find its
-// plugins.
+// Initialises GStreamer at the first call; later calls do nothing. Prevents GStreamer from starting
+// a helper process that searches for plugins.
 void start_gstreamer();
 
-// The caps that an appsink must be given for gst_picture(). In all of these formats the first plane
-// is the gray picture. With colour, only one format is allowed (I420).
+// The caps to set on an appsink whose samples go to gst_picture(). In all of their formats, the
+// first plane is the gray picture. With colour, only one format is allowed (I420).
 const char* gst_formats(bool with_colour);
 
 struct GstPicture {
   cv::Mat gray;  // 8-bit, in memory of its own
   cv::Mat bgr;   // empty without colour
 };
-// nullopt: the sample has no picture in memory.
+// Copies the picture out of a sample. nullopt if the sample has no picture in memory.
 std::optional<GstPicture> gst_picture(GstSample* sample, bool with_colour);
 
-// A device's text, made fit for one line: without control characters, and at most 120 bytes long.
+// Makes a device's text printable in one line: without control characters, at most 120 bytes.
 std::string printable(std::string text);
 
 }  // namespace ols::camera

@@ -1,8 +1,8 @@
-// A line that relates the arrival of a camera's pictures to the camera's own stamps. Pure.
+// Fits a line that predicts the arrival of a picture from the camera's stamp of it. Pure.
 //
-// Network, encoder and a busy host can only delay a picture, so only the least delayed picture of
-// every two seconds counts. The slope of a line through these is the camera's rate, even if its
-// stamps run far too fast or too slowly.
+// The network, the encoder and a busy host can only delay a picture. Therefore, only the least
+// delayed picture of every two seconds is used. The line's slope is the rate of the camera's
+// stamps, even if these run far too fast or too slowly.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@ namespace ols::camera {
 
 class ArrivalLine {
  public:
-  // `device_ns`: the camera's stamp; `arrival_s`: CLOCK_MONOTONIC.
+  // `device_ns`: the camera's stamp; `arrival_s`: CLOCK_MONOTONIC at the picture's arrival.
   void add(std::int64_t device_ns, double arrival_s);
   void clear() { *this = ArrivalLine(); }
 
-  // The arrival to be expected for a picture with this stamp, with no more than the usual delay.
+  // The arrival time to expect for a picture with this stamp, if its delay is the usual minimum.
   // sd_s is the scatter of the least delayed pictures about the line. nullopt before the first
   // add().
   std::optional<MappedTime> at(std::int64_t device_ns) const;
-  // Seconds of the station per second of the camera's stamps. In the first seconds it is taken as
-  // 1, unless the arrivals clearly show another rate.
+  // Seconds of the station's clock per second of the camera's stamps. In the first seconds, about 1
+  // is assumed unless the arrivals clearly show another rate.
   double rate() const { return rate_; }
-  // Whether rate() has been measured, over at least eight seconds.
+  // Whether rate() has been measured over at least eight seconds.
   bool knows_rate() const;
 
  private:
@@ -41,7 +41,8 @@ class ArrivalLine {
 
   std::int64_t origin_ns_ = 0;
   double span_from_s_ = 0.0;  // arrival at the start of the newest span
-  std::deque<Least> least_;   // one for each span; the newest span is still open
+  // the least delayed picture of each span; the newest span is still open
+  std::deque<Least> least_;
   double reference_s_ = 0.0;  // stamp of the newest picture at the last fit
   double offset_s_ = 0.0;     // arrival at reference_s_
   double rate_ = 1.0;

@@ -1,8 +1,8 @@
-// Keeps the data about a stream's pictures from its RTP packets, until the pictures leave the
-// decoder. Pure.
+// Collects stamp and arrival of each picture from the stream's RTP packets, and attaches them to
+// the picture when it leaves the decoder. Pure.
 //
 // All packets of one picture have the same stamp. After a lost packet, all pictures are broken
-// until the next one that does not depend on another.
+// until the next key frame, which does not depend on other pictures.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,17 @@ namespace ols::camera {
 
 struct RtpPacket {
   std::uint16_t sequence = 0;
-  bool last = false;         // the last packet of its picture (marker bit)
-  std::uint32_t stamp = 0;   // [ticks]
-  std::uint64_t pts_ns = 0;  // the packet's time in the pipeline; it identifies the picture there
-  double arrival_s = 0.0;    // CLOCK_MONOTONIC
+  bool last = false;        // the last packet of its picture (marker bit)
+  std::uint32_t stamp = 0;  // [ticks]
+  // GStreamer's time of the packet, which identifies the picture in the pipeline
+  std::uint64_t pts_ns = 0;
+  double arrival_s = 0.0;  // CLOCK_MONOTONIC
   std::optional<std::int64_t> report_utc_ns;
 };
 
 struct RtpPicture {
-  std::uint64_t number = 0;    // number of the picture in the stream
-  std::int64_t device_ns = 0;  // the RTP stamp, unwrapped
+  std::uint64_t number = 0;    // counts the stream's pictures, from 1
+  std::int64_t device_ns = 0;  // the RTP stamp, extended beyond 32 bits
   double arrival_s = 0.0;      // arrival of the first packet
   std::optional<std::int64_t> report_utc_ns;
   bool broken = false;
@@ -34,9 +35,9 @@ class RtpPictures {
   explicit RtpPictures(double clock_hz) : clock_hz_(clock_hz) {}
 
   void add(const RtpPacket& packet);
-  // Notes that the decoder gets a picture. `whole`: the picture does not depend on another one.
+  // Notes that a picture enters the decoder. `whole`: the picture is a key frame.
   void decoding(std::uint64_t pts_ns, bool whole);
-  // The data of a picture that has left the decoder; nullopt if no packet had this time.
+  // Returns the data of a picture that has left the decoder; nullopt if no packet had this pts_ns.
   std::optional<RtpPicture> take(std::uint64_t pts_ns);
 
   std::uint64_t lost_packets() const { return lost_packets_; }
@@ -58,7 +59,8 @@ class RtpPictures {
   std::int64_t ticks_ = 0;
   std::uint64_t number_ = 0;
   std::uint64_t lost_packets_ = 0;
-  bool broken_ = false;  // the picture that the decoder got last, and those after it, are wrong
+  // the decoder's newest picture is wrong, and so are the next ones until a key frame
+  bool broken_ = false;
 };
 
 }  // namespace ols::camera

@@ -1,5 +1,5 @@
-// An RTSP camera. It controls its exposure itself and has no trigger, so set_region() and trigger()
-// have no effect.
+// An RTSP camera. It controls its own exposure and has no trigger; set_region() and trigger()
+// therefore have no effect.
 #pragma once
 
 #include "edge/camera/rtsp/rtsp_config.h"

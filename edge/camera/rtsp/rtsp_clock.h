@@ -1,10 +1,12 @@
-// Computes the exposure time of an RTSP camera's picture on the station's monotonic clock. Pure.
+// Computes the mid-exposure time of an RTSP camera's picture on the station's monotonic clock.
+// Pure.
 //
-// There are two sources. Sender reports (RTCP) give the UTC of a picture's stamp by the camera's
+// There are two sources. Sender reports (RTCP) give the UTC of a picture's stamp, by the camera's
 // own clock. But the first report may come after ten seconds or never, and the camera's clock may
-// be wrong: local time, never set, drifting. Arrivals are always available, but late by a delay
-// that is only roughly known. The reports are believed as long as they imply a credible delay. This
-// delay is learnt, so that the times hardly change if the reports cease.
+// be wrong: set to local time, never set, drifting. The arrivals of the pictures are always
+// available, but they are late by a delay that is only roughly known. The reports are used as long
+// as the delay from their times to the arrivals is credible. This delay is learnt; if the reports
+// cease, it is subtracted from the arrivals, and the times hardly change.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +18,9 @@
 namespace ols::camera {
 
 struct RtspStamp {
-  std::int64_t device_ns = 0;  // the RTP stamp, unwrapped
+  std::int64_t device_ns = 0;  // the RTP stamp, extended beyond 32 bits
   double arrival_s = 0.0;      // CLOCK_MONOTONIC of the picture's first packet
-  // UTC of that stamp according to the newest sender report.
+  // UTC of device_ns according to the newest sender report; nullopt before the first report.
   std::optional<std::int64_t> report_utc_ns;
 };
 
@@ -27,26 +29,26 @@ class RtspClock {
   struct Config {
     double delay_s = 0.3;  // from mid-exposure to the arrival of the first packet
     double delay_sd_s = 0.3;
-    double report_delay_s = 0.0;  // from mid-exposure to the instant that the camera reports
+    double report_delay_s = 0.0;  // from mid-exposure to the instant whose UTC the camera reports
     double report_sd_s = 0.02;    // 1-sigma of that instant and of the camera's UTC together
   };
   explicit RtspClock(const Config& config) : config_(config) {}
 
-  // `utc_minus_monotonic_ns`: difference between the station's clocks now.
+  // The mid-exposure time of a picture. `utc_minus_monotonic_ns`: the current difference of the
+  // station's two clocks.
   FrameTime stamp(const RtspStamp& picture, std::int64_t utc_minus_monotonic_ns);
 
-  // Notes that the stream begins anew with other RTP stamps; the learnt delay remains.
+  // Notes that the stream was restarted, with new RTP stamps. The learnt delay is kept.
   void restart();
 
-  // The difference between the newest time and the one that the previous source would have given.
-  // Set by the first stamp() after a change of the source.
+  // The last stamp()'s result minus the time that the previous source would have given. Set only if
+  // this stamp() changed the source.
   std::optional<double> jump_s() const { return jump_s_; }
-  // The delay learnt from the reports; nullopt if none was learnt.
+  // The delay from mid-exposure to arrival, learnt from the reports; nullopt if none was learnt.
   std::optional<double> learnt_delay_s() const;
-  // The delay of the pictures according to reports that are not believed. nullopt if there are no
-  // such reports.
+  // The delay that the sender report implies, if it is not credible; otherwise nullopt.
   std::optional<double> refused_delay_s() const { return refused_delay_s_; }
-  // Seconds of the station per second of the camera's stamps; nullopt until it is measured.
+  // Seconds of the station's clock per second of the camera's stamps; nullopt until it is measured.
   std::optional<double> rate() const;
 
  private:
@@ -59,13 +61,13 @@ class RtspClock {
   ArrivalLine arrivals_;
   std::optional<std::int64_t> report_ns_;  // UTC of the newest report
   std::int64_t report_offset_ns_ = 0;
-  // Arrival of the first picture after the last step of the reports.
+  // Arrival of the first picture after the reports' times were last stepped.
   std::optional<double> stepped_s_;
-  // Mean square of the differences between successive reports, smoothed.
+  // Smoothed mean square of the changes of (reported time - stamp) from report to report.
   double step_square_s2_ = 0.0;
   double learnt_delay_s_ = 0.0;
   double learnt_s_ = 0.0;  // arrival at which the delay was last learnt
-  int learnt_from_ = 0;    // how often the delay was learnt
+  int learnt_from_ = 0;    // number of samples in learnt_delay_s_
   std::optional<double> refused_since_s_, refused_delay_s_;
   std::optional<StampSource> source_;
   std::optional<double> jump_s_;

@@ -13,24 +13,26 @@ enum class RtspTransport { kTcp, kUdp };
 struct RtspConfig : CameraConfig {
   std::string url;  // without user and password
   std::string user;
-  // The password is the file's first line; it is read at each connection.
+  // File whose first line is the password; it is read at each connection.
   std::string password_file;
   RtspTransport transport = RtspTransport::kTcp;
   RtspClock::Config clock;
-  // From the first to the last row of a picture; 0 if all rows are exposed at once.
+  // Time from the exposure of the first row to that of the last row; 0 if all rows are exposed at
+  // once.
   double row_readout_s = 0.0;
-  double frozen_s = 20.0;  // reconnect if the picture has not changed for this time; 0: never
-  // Reconnect after this time plus two frame periods without a picture.
+  double frozen_s = 20.0;  // reconnect if the picture has not changed for this time; 0 for never
+  // Reconnect if no picture has come for this time plus two frame periods.
   double no_frame_timeout_s = 5.0;
-  // Longer, because some cameras send a whole picture only every ten seconds.
+  // The same until the first picture. It is longer, because decoding starts at a key frame, and
+  // some cameras send one only every ten seconds.
   double first_frame_timeout_s = 20.0;
   bool keep_raw = false;
 };
 
 config::Section rtsp_section(RtspConfig& config);  // the section [camera]
 
-// The URL as it may appear in logs: "rtsp://10.0.0.5:554/...". Some cameras need the password in
-// the path or after it.
+// The URL as it may appear in logs: "rtsp://10.0.0.5:554/...". The path is hidden, because some
+// cameras need the password in the path or after it.
 std::string shown_url(const std::string& url);
 
 }  // namespace ols::camera

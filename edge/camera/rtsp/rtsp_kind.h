@@ -1,4 +1,4 @@
-// RTSP cameras as a kind of camera (camera_kind.h).
+// The camera kind for RTSP cameras (camera_kind.h).
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// One connection to an RTSP camera. GStreamer receives and decodes in its own threads; a caller
-// takes the newest picture.
+// One connection to an RTSP camera. GStreamer receives and decodes the pictures in its own threads;
+// receive() returns the newest one.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace ols::camera {
 
-// The camera refuses the user or the password.
+// The camera has refused the user or the password.
 struct LoginRefused : CameraError {
   using CameraError::CameraError;
 };
 
 struct DecodedPicture {
-  cv::Mat gray;  // 8-bit, in memory of its own
-  cv::Mat bgr;   // empty if nobody needs it
+  cv::Mat gray;  // 8-bit, a copy
+  cv::Mat bgr;   // empty unless the configuration has keep_raw
   RtpPicture rtp;
 };
 
@@ -33,8 +33,9 @@ class RtspStream {
   RtspStream(const RtspStream&) = delete;
   RtspStream& operator=(const RtspStream&) = delete;
 
-  // The newest picture; nullopt if none came in time. Throws CameraAbsent if the stream has ended,
-  // CameraUnfit if it has no video that can be decoded, and LoginRefused.
+  // Waits for a new picture and returns the newest one; nullopt if none came in time. Throws
+  // CameraAbsent if the stream has ended, CameraUnfit if it contains no video that can be decoded,
+  // and LoginRefused.
   std::optional<DecodedPicture> receive(double timeout_s);
 
   std::string codec() const;  // for example "H264"; empty if not known yet

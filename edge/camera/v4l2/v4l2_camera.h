@@ -1,5 +1,6 @@
-// A camera that Linux drives. It has no trigger, and its exposure is a control, so set_region() and
-// trigger() have no effect.
+// A camera with a Linux driver (Video4Linux2). set_region() has no effect, because the exposure is
+// set by a control of the driver (v4l2_controls.h). trigger() has no effect, because such a camera
+// has no trigger.
 #pragma once
 
 #include "edge/camera/threaded_camera.h"

@@ -8,7 +8,7 @@
 
 namespace ols::camera {
 
-// Empty if there is no such device, or if it is no camera.
+// Returns an empty list if the device does not exist or is not a camera.
 std::vector<V4l2Control> v4l2_controls_of(const std::string& device);
 
 }  // namespace ols::camera

@@ -1,4 +1,4 @@
-// V4L2 cameras as a kind of camera (camera_kind.h).
+// The camera kind for V4L2 cameras (camera_kind.h).
 #pragma once
 
 #include <memory>
