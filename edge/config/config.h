@@ -1,4 +1,4 @@
-// The contents of a station's configuration file: docs/configuration.md.
+// The settings that a station reads from its configuration file (docs/configuration.md).
 #pragma once
 
 #include <cstdint>
@@ -24,26 +24,27 @@ struct Section;
 }
 namespace ols::station {
 
-// Serial numbers of the parts of an instrument; empty if not stated.
+// Serial numbers of the parts of the instrument; each is empty if not stated.
 struct InstrumentSerials {
   std::string camera, lens, ptu;
 };
 
-// How a station uses its site's settings.
+// The site's settings, as far as this station uses them.
 struct SiteChoice {
   std::string file;         // the station's own configuration file; empty if none was read
   std::int64_t number = 0;  // number of the site's settings in use; 0 if there are none
-  // Keys of the site's settings for which the station's file gives other values.
+  // Keys of the site's settings that the station's own file overrides.
   std::vector<std::string> own;
 };
 
 struct StationSettings {
-  // Letters, digits, - and _; at most 32 characters, because it is part of channel names.
+  // Name of the station: letters, digits, - and _. At most 32 characters, because it is part of
+  // channel names.
   std::string id;
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string state_folder;  // folder for the persisted state; if empty, nothing is persisted
   std::int64_t calibration_id = 0;
-  // Idle time between two checks of the reference views; 0 for no checks.
+  // Idle time after which the station checks its reference views again; 0 for no checks.
   double view_check_s = 600.0;
   // Folder written by `ols-calibrate adjust`; empty if there is none.
   std::string calibration_folder;
@@ -56,7 +57,7 @@ struct StationSettings {
   StationConfig station;
   sensors::PoseEstimator::Config pose;
   ChosenCamera camera{camera_kinds()};
-  bool keep_raw = false;  // also keep the camera's raw images
+  bool keep_raw = false;  // also keep the camera's raw images, for recorder and tracker
   ChosenMount mount{mount_kinds()};
   lens::LensMotorConfig lens;
   ChosenInclinometer inclinometer{inclinometer_kinds()};
@@ -74,19 +75,19 @@ struct StationSettings {
 };
 
 config::Section station_section(StationSettings& settings);  // describes the whole file
-// Throws ConfigError ("file:line: key: what").
+// Throws ConfigError; its message is "file:line: key: what is wrong".
 StationSettings load_station_settings(const std::string& path);
-// As above, with the site's settings as defaults for keys that are missing in the file.
+// As above; the site's settings are the defaults for keys that are missing in the file.
 StationSettings load_station_settings(const std::string& path, const trust::SiteSettings& site);
-// The keys of [station] that a site's settings may contain: those that are the same on all
-// stations.
+// The section [station] of a site's settings: those keys of a station's file that a site may set
+// for all of its stations.
 config::Section site_section(StationSettings& settings);
 
-// Returns a function that checks whether the station with this configuration file can use a site's
-// settings.
+// Returns a function that checks whether the station whose configuration file is `path` can use a
+// site's settings.
 trust::SettingsCheck site_check(const std::string& path);
 
-// The text of --check-config, one line per subject.
+// The lines that --check-config prints: a summary of the settings, one line per subject.
 std::vector<std::string> describe(const StationSettings& settings);
 
 }  // namespace ols::station

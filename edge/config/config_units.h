@@ -1,5 +1,5 @@
-// Units and words that a configuration file uses in place of the internal values: degrees for
-// radians, names for lens models.
+// Conversions between a configuration file and internal values: degrees to radians, names to lens
+// models.
 #pragma once
 
 #include "base/config/config_section.h"

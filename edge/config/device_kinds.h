@@ -1,5 +1,5 @@
-// The kinds of devices that a station can have: the values of `kind` in [camera], [mount], [gnss]
-// and [inclinometer]. A new kind needs a folder of its own and a row here.
+// The kinds of devices that a station supports: the values of the key `kind` in [camera], [mount],
+// [gnss] and [inclinometer]. A new kind needs its own folder and a row in one of these tables.
 #pragma once
 
 #include "edge/camera/camera_kind.h"
