@@ -11,12 +11,12 @@
 
 namespace ols::device {
 
-// A row in the table of a device's kinds. `Kind` has what all kinds have in common, and a function
-// `section()` that binds the keys of a kind to itself.
+// A row in the table of a device's kinds. `Kind` is the common interface of these kinds. Its
+// function `section()` binds the configuration keys to the object.
 template <class Kind>
 struct KindRow {
   const char* name;      // the value of the key `kind`
-  const char* sentence;  // what the kind is
+  const char* sentence;  // description of the kind in one sentence
   std::shared_ptr<Kind> (*make)();
 };
 
@@ -25,11 +25,11 @@ std::shared_ptr<Kind> make_kind() {
   return std::make_shared<Made>();
 }
 
-// Copies share the values that were read.
+// Copies share the kinds' objects, and thus the values that were read into them.
 template <class Kind>
 class ChosenKind {
  public:
-  // Initially the first kind is chosen, with its defaults.
+  // Chooses the first kind of the table, with its default values.
   explicit ChosenKind(const std::vector<KindRow<Kind>>& table) {
     for (const KindRow<Kind>& row : table) kinds_.push_back({row, row.make()});
   }
@@ -43,7 +43,7 @@ class ChosenKind {
     return dynamic_cast<Made*>(&**this);
   }
 
-  // The configuration section; reading it chooses the kind.
+  // The device's configuration section. Reading a configuration into it chooses the kind.
   config::Section section(std::string name, std::string sentence) {
     config::Section section{std::move(name), std::move(sentence)};
     section.choose = [this](std::size_t chosen) { chosen_ = chosen; };

@@ -1,5 +1,5 @@
-// The state of one device, in the same form for all devices, for the status message and ols-doctor.
-// Pure.
+// The state of a device, for the status message and ols-doctor. All devices have the same form of
+// report. Pure.
 #pragma once
 
 #include <cstdint>
@@ -24,17 +24,17 @@ const char* to_string(DeviceState state);
 struct DeviceReport {
   std::string name;  // "camera", "ptu", "gnss", "inclinometer", "gpio", "recorder", "video"
   DeviceState state = DeviceState::kAbsent;
-  std::string text;    // what the device is, or what is wrong with it
-  std::string serial;  // as the device itself states it; empty if it does not, or not yet
+  std::string text;    // the device's identity, or what is wrong with it
+  std::string serial;  // serial number as the device states it; empty if it has stated none
   std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last good datum
 
   std::string last_error;    // the last error as text; empty if there was none
   std::uint64_t errors = 0;  // number of errors so far; two errors may have the same text
 
   std::vector<Alarm> alarms;  // conditions that hold now
-  // These may decrease; the name ends with the unit: ptu_supply_V.
+  // Measured values by name; the name ends with the unit: ptu_supply_V.
   std::map<std::string, double> readings;
-  // These only increase; the name begins with the device.
+  // Counters by name, which only increase; the name begins with that of the device.
   std::map<std::string, std::uint64_t> counters;
 };
 

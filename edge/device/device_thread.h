@@ -1,6 +1,6 @@
-// The thread of one device. It opens the device, serves it, reopens it after a failure with growing
-// pauses, counts errors and reports. Errors of the device do not leave this class; nothing throws
-// after construction.
+// The thread of one device. It opens the device and serves it. After a failure it reopens the
+// device, with growing pauses. It counts errors and reports them. Exceptions of the device do not
+// leave this class; no function throws after construction.
 #pragma once
 
 #include <condition_variable>
@@ -20,15 +20,17 @@ class DeviceThread {
  public:
   struct Config {
     std::string name;     // name of the device in its report: "gnss"
-    std::string opening;  // text of the report until the first attempt to open has ended
-    // Pause before the device is reopened; it doubles with each failure.
+    std::string opening;  // text of the report until the first attempt to open the device has ended
+    // First pause before the device is reopened. The pause doubles with each failure, up to
+    // max_pause_s.
     double first_pause_s = 0.2;
     double max_pause_s = 5.0;
-    // Makes an alarm from a failure; if null, the owner makes it.
+    // Makes the alarm for a failure; if null, the owner of this object makes the alarm.
     Alarm (*alarm)(const std::string& failure) = nullptr;
   };
-  // Opens the device, calls opened(), and serves the device until a stop is requested. Throws
-  // std::exception when the device fails. If it returns, it is called again at once.
+  // A function that opens the device, calls opened(), and serves the device until a stop is
+  // requested. It throws std::exception when the device fails. If it returns before a stop is
+  // requested, it is called again at once.
   using Session = std::function<void(const std::stop_token&)>;
 
   struct Link {
@@ -49,16 +51,18 @@ class DeviceThread {
   // Call once; do not call if the device is not configured.
   void start(Session session);
 
-  // Called by the session. opened(): the device is open. works(): the device works, so that the
-  // next pause is short again.
+  // The session calls opened() when it has opened the device, and works() when the device works;
+  // the next pause is then first_pause_s again.
   void opened();
   void works();
-  // Sets the fault of an open device (counted when it begins); empty if there is no fault.
+  // Sets the fault of an open device; empty if there is no fault. A fault counts as one error, when
+  // it begins.
   void set_fault(const std::string& fault);
 
   Link link() const;
-  // Contains name and errors, and those parts of state, text and alarms that do not depend on the
-  // device's data. kOk means that the device is open and has no fault.
+  // Contains the name, the errors, and the state, text and alarm that follow from opening, failures
+  // and fault. The owner adds the device's data. kOk means that the device is open and has no
+  // fault.
   DeviceReport report() const;
 
  private:

@@ -1,4 +1,4 @@
-// Reads the password of a device on the network from a file that only the station can read.
+// Reads a device's password from a file that only the station can read.
 #pragma once
 
 #include <functional>
@@ -6,12 +6,13 @@
 
 namespace ols::device {
 
-// Returns the file's first line; empty if `file` is empty. Throws std::system_error.
+// Returns the file's first line; empty if the file's name is empty. Throws std::system_error.
 std::string read_password(const std::string& file);
 
-// Call after a refused login: waits until the file has another password, or for a quarter of an
-// hour, because devices lock an account for half an hour after five to ten refusals. `wait`: waits
-// for a number of seconds; returns false if the device is no longer wanted.
+// Call after a device has refused the password `refused`. Waits until the file contains another
+// password, but at most for kLoginPause_s. Without this pause, devices would lock the account: they
+// do so for half an hour after five to ten refusals. `wait`: a function that waits for a number of
+// seconds, and returns false if the device is no longer wanted; this function then returns.
 void wait_for_other_password(const std::string& file, const std::string& refused,
                              const std::function<bool(double)>& wait);
 inline constexpr double kLoginPause_s = 900.0;

@@ -1,6 +1,6 @@
-// Readings of a device's thread, for a caller that takes them now and then. It is bounded: if the
-// caller never takes any, only the newest remain. It is not thread-safe; the owner must hold a
-// lock. Pure.
+// A queue of a device's readings, which a caller takes from time to time. Its length is limited to
+// kMost: if the caller takes none, only the newest remain. It is not thread-safe; the owner must
+// hold a lock. Pure.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class ReadingQueue {
     readings_.push_back(reading);
   }
 
-  // The readings since the last call, oldest first.
+  // Takes all readings out of the queue, oldest first.
   std::vector<Reading> take() { return std::exchange(readings_, {}); }
 
  private:
