@@ -1,5 +1,5 @@
-// A raw serial device with 8N1 or 8E1 and without handshake. It uses plain termios, because
-// libserialport refuses devices that are not in sysfs, such as pseudo terminals.
+// A serial device in raw mode, with 8N1 or 8E1 and without handshake. It uses termios directly,
+// because libserialport refuses devices that are not in sysfs, such as pseudo terminals.
 #pragma once
 
 #include <string>
@@ -13,31 +13,32 @@ enum class Parity { kNone, kEven };
 
 class SerialPort {
  public:
-  // Opens and locks the device, and clears its buffers. `wakeup` may be null. Throws
-  // std::system_error with the device's name: missing, no permission, not a terminal, in use, or
-  // unknown rate.
+  // Opens and locks the device, and clears its buffers. `wakeup` ends waiting in read() and
+  // write(); it may be null. Throws std::system_error with the device's name if the device is
+  // missing, in use or not a serial device, or if the permission or the baud rate is wrong.
   SerialPort(const std::string& device, int baud, Parity parity = Parity::kNone,
              const Wakeup* wakeup = nullptr);
   ~SerialPort();
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
-  // Waits for bytes at most `timeout_s` or until woken up. Returns the bytes. Throws if the device
-  // has vanished.
+  // Waits until bytes arrive, but at most `timeout_s` and not beyond a wakeup. Returns the bytes,
+  // which may be none. Throws std::system_error if the device has vanished.
   std::string read(double timeout_s);
 
-  // Writes all bytes; if woken up, drops the rest. Throws if the device has vanished or accepts
-  // nothing for 0.2 s.
+  // Writes all bytes. If a wakeup comes while it waits, it drops the remaining bytes and returns.
+  // Throws std::system_error if the device has vanished or accepts nothing for 0.2 s.
   void write(std::string_view bytes);
 
-  // Drops the bytes that are not on the line yet, and writes `bytes`. It does not wait. Returns
-  // false if the device does not accept them now.
+  // Drops earlier bytes that have not been sent yet, and writes `bytes`. Does not wait. Returns
+  // false if the device does not accept all of `bytes` at once.
   bool write_first(std::string_view bytes);
 
-  // Changes the baud rate once all written bytes are on the line. Throws std::system_error.
+  // Waits until all written bytes are sent, at most 0.3 s, and then changes the baud rate. Throws
+  // std::system_error.
   void set_baud(int baud);
 
-  // Waits until all written bytes are on the line; returns false on timeout.
+  // Waits until all written bytes are sent; returns false on timeout.
   bool drain(double timeout_s);
 
  private:
