@@ -1,4 +1,4 @@
-// Converts between the station's types and LCM messages. Makes no decisions.
+// Converts between the station's types and LCM messages.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,8 @@
 
 namespace ols::station {
 
-// The sender, the present difference between UTC and monotonic time, and its quality.
+// The sender of a station's messages, with its clocks: the present difference between UTC and
+// monotonic time, and the quality of UTC.
 struct Sender {
   std::string station;
   std::int64_t boot_id = 0;
@@ -60,8 +61,8 @@ ols_msg::preview_t to_message(const video::PreviewPicture& picture, const camera
 ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
                                  std::int64_t sequence);
 
-// The answer to a command. `reason`: why the command is refused (the name of the counter); empty if
-// it is carried out.
+// The answer to a command. `reason`: why the command is refused, as the name of a counter of
+// refusals; empty if the command is carried out. `detail`: the reason in words; may be empty.
 struct Answer {
   CommandId command;
   std::string reason{}, detail{};
@@ -77,7 +78,7 @@ OcclusionCommand from_message(const ols_msg::occlusion_t& message, const Sender&
 PointCommand from_message(const ols_msg::ptu_command_t& message);
 CentreCommand centre_from_message(const ols_msg::ptu_command_t& message, const Sender& sender);
 RateCommand rate_from_message(const ols_msg::ptu_command_t& message, double now_s);
-// nullopt if the message's times are not finite, negative, or too large.
+// nullopt if a time in the message is not finite, negative or too large.
 std::optional<recorder::RecordCommand> from_message(const ols_msg::record_t& message,
                                                     const Sender& sender, double now_s);
 

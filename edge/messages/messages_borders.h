@@ -1,4 +1,4 @@
-// Writes into a station's status the borders of the region in which its unit can point.
+// Writes the borders of the region in which a station's mount can point into the station's status.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace ols::station {
 
 void fill_borders(const std::vector<Border>& borders, ols_msg::station_status_t& message);
 
-// As above; computes the borders for a unit with the pose in `report`.
+// As above; computes the borders from `chain`, with the tilts of the pose in `report`.
 void fill_borders(ChainParameters chain, const StationReport& report,
                   ols_msg::station_status_t& message);
 

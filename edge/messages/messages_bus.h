@@ -1,6 +1,7 @@
-// A station on the bus: receives commands and answers them, sends bearings, status and previews.
-// Decodes commands, checks addressee and freshness, and counts what it refuses. It makes no other
-// decisions. The station also runs without a network; the bus retries the connection every second.
+// Connects a station to the bus: receives and answers commands, and sends bearings, status and
+// previews. It decodes each command, checks its addressee and freshness, and counts refused ones;
+// all other decisions are the station's. A station also runs without a network; this class then
+// tries to connect every second.
 #pragma once
 
 #include <cstdint>
@@ -27,12 +28,14 @@
 
 namespace ols::station {
 
-// The files with the station's key and with its persisted state.
+// Where the program's key and its persisted trust list are stored. `settings.state_folder` takes
+// precedence over the process's environment.
 trust::Environment trust_environment(const StationSettings& settings);
 
 class StationBus {
  public:
-  // Returns empty if the request is accepted, otherwise the reason for the refusal.
+  // Functions that carry out a request. They return an empty text if they accept it, otherwise the
+  // reason for the refusal.
   using Record = std::function<std::string(const recorder::RecordCommand&)>;
   using FrameWanted = std::function<std::string(const FrameRequest&)>;
 
@@ -40,32 +43,34 @@ class StationBus {
   StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
              CommandTurn& turn, Record recorder, FrameWanted frame_wanted = {});
 
-  // Sets the clocks that are used until the next call.
+  // Sets the present time, which is used until the next call.
   void set_time(const clock::ClockPair& now, const clock::ClockQuality& quality);
 
-  // Connects; waits at most this long.
+  // Tries to connect; waits at most `wait_s`.
   void connect(double wait_s);
-  // Passes the waiting commands to the station. Without a connection, it starts an attempt to
-  // connect, but does not wait for it.
+  // Passes the waiting commands to the station and sends the answers. Without a connection, it
+  // starts an attempt to connect and does not wait for the result.
   void receive();
   void take(const BusMessage& message);
-  // True if the message is a stop; end_turn() carries the stop out. May be called from any thread.
+  // Handles the message if it is a stop command; otherwise returns false. end_turn() carries the
+  // stop out. May be called from any thread.
   bool take_stop(const BusMessage& message);
-  // Call after the messages of a turn.
+  // Call in each cycle of the control loop, after all messages of the cycle were taken
+  // (CommandTurn). Carries out the cycle's designation and stop.
   void end_turn();
-  // The answers to the commands since the last call; receive() sends them.
+  // The answers since the last call. receive() takes and sends them.
   std::vector<Answer> take_answers() { return std::exchange(answers_, {}); }
 
-  // Why there is no connection; empty if there is one.
+  // Why there is no connection; empty while connected.
   const std::string& trouble() const { return trouble_; }
-  // The last refused command as text, and the number of refused commands.
+  // The last refusal as text, and the number of refusals.
   const std::string& last_refusal() const { return refused_.last(); }
   std::uint64_t refusals() const { return refused_.number(); }
-  // Alarms about the bus, for a person: commands repeatedly refused because they are not fresh,
-  // invalid datagrams, newer settings of the site.
+  // Alarms about the bus: commands that are repeatedly refused because they are not fresh, invalid
+  // datagrams, and newer settings of the site that wait for a restart.
   std::vector<Alarm> alarms() const;
-  // Counts messages that were refused before they reached the station, and messages that could not
-  // be sent. They are part of each status.
+  // Counters for the status message: messages that were refused before they reached the station,
+  // messages that could not be sent, and others.
   std::map<std::string, double> counters() const;
 
   void send(const Bearing& bearing);
@@ -76,10 +81,10 @@ class StationBus {
   void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
-  // The result of a command. `reason`: why the command was refused (the name of the counter).
+  // The result of a command; `reason` and `detail` as in Answer.
   struct Verdict {
     std::string reason{}, detail{};
-    bool is_open = false;  // to be decided at the end of the turn
+    bool is_open = false;  // true: end_turn() will decide
   };
 
   template <class Message>
@@ -94,7 +99,7 @@ class StationBus {
   Verdict command_lens(const ols_msg::lens_command_t& message);
   Verdict record(const ols_msg::record_t& message);
   Verdict want_frame(const ols_msg::frame_request_t& message);
-  // Notes a refusal.
+  // Converts a refusal by the station to a verdict, and notes it.
   Verdict verdict(const std::string& kind, Refusal refusal);
   void answer(const CommandId& command, const Verdict& verdict);
   void answer_designations();
@@ -102,7 +107,7 @@ class StationBus {
   const StationSettings& settings_;
   Station& station_;
   CommandTurn& turn_;
-  // These are fixed at construction, because the bus's thread reads them while the control loop may
+  // Copies made at construction, because the bus's thread reads them while the control loop may
   // replace the settings.
   struct Given {
     CommandGate::Config gate;
@@ -123,12 +128,11 @@ class StationBus {
   std::map<std::string, double> counters_;
   std::map<std::string, std::int64_t> sequences_;
   std::vector<Answer> answers_;
-  // Limits of the answers sent. Several people may each repeat a stop 50 times a second.
+  // Limits of the rates of answers. Several operators may each repeat a stop 50 times a second.
   static constexpr double kAccepted_Hz = 300.0, kRefused_Hz = 50.0;
   trust::RateLimit accepted_sent_{kAccepted_Hz}, refused_sent_{kRefused_Hz};
-  // Stops that are to be answered: the last one from each sender. They are shared with the bus's
-  // thread.
-  // Forged stops may come from any number of senders.
+  // Stops that end_turn() must answer: the last one of each sender. Shared with the bus's thread.
+  // Their number is limited, because forged stops may come from any number of senders.
   static constexpr std::size_t kMostStoppers = 16;
   std::mutex stops_mutex_;
   std::map<std::int64_t, std::int64_t> stops_;  // sender's boot id -> sequence number

@@ -1,4 +1,4 @@
-// Writes a sighting's counts and pixel into an LCM message. Makes no decisions.
+// Writes a sighting, a bearing's pixel and encoder counts, into an LCM message.
 #pragma once
 
 #include "edge/frames/sighting_desk.h"
@@ -6,7 +6,7 @@
 
 namespace ols::station {
 
-// Fills everything except the sender, the time and the state of the sender's clock.
+// Fills all fields except the sender, the time and the state of the sender's clock.
 void fill_sighting(const Sighting& sighting, ols_msg::sighting_t& message);
 
 }  // namespace ols::station
