@@ -1,6 +1,6 @@
-// Encodes one viewer's pictures as an H.264 stream, for slow links. Each access unit refers to the
-// previous one, so all of them must reach the viewer, in order. The caller decides which pictures
-// are encoded, and must send each unit. Pure: the same pictures give the same bytes.
+// Encodes one viewer's pictures as an H.264 stream, for slow networks. An access unit (a coded
+// picture) refers to the previous one. Therefore, the caller must send every unit to the viewer, in
+// order. Pure: the same pictures give the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,10 @@ class H264Encoder {
  public:
   H264Encoder() = default;
 
-  // Encodes the next picture (8-bit, one channel, even sides) as an access unit (Annex B).
-  // `quality`: on the scale of JPEG. The unit is a key frame if `key_frame` is set, if it is the
-  // first one, or if size or quality have changed. Returns empty if the encoder fails.
+  // Encodes the next picture (8-bit, one channel, even width and height) as an access unit in the
+  // format of Annex B. `quality`: 1 to 100, as for JPEG. The unit is a key frame if `key_frame` is
+  // set, if it is the first one, or if the size or the quality has changed. Returns an empty vector
+  // if the encoder fails.
   std::vector<std::uint8_t> encode(const cv::Mat& gray, int quality, bool key_frame,
                                    std::int64_t utime_us);
 

@@ -1,4 +1,5 @@
-// The messages of a station's video socket. Crops, scales and compresses a picture as requested.
+// The messages on a station's video connections: decodes a viewer's request, and encodes the
+// answer.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,16 @@
 
 namespace ols::video {
 
-// A request has no variable part; a longer message is not a request.
+// All requests are shorter than this, because they have a fixed length. A longer message is
+// refused.
 inline constexpr std::uint32_t kLargestRequest_bytes = 256;
 
-// nullopt if it is not a request, or out of range.
+// nullopt if the bytes are not a request, or if a value is out of range.
 std::optional<VideoRequest> decode_request(std::span<const std::uint8_t> bytes);
 
-// Makes the answer to a request. Cropping, scaling and compressing take milliseconds. `stream`: the
-// encoder of the requesting viewer, for H.264. Returns empty if the picture cannot be coded.
+// Makes the answer to a request: crops, scales and compresses the frame, which takes milliseconds.
+// `sequence`: number of the answer. `stream`: the H.264 encoder of the requesting viewer. Returns
+// an empty vector if the picture cannot be coded.
 std::vector<std::uint8_t> encode_frame(const VideoFrame& frame, std::int64_t sequence,
                                        const VideoSender& sender, const VideoRequest& request,
                                        H264Encoder& stream);

@@ -1,4 +1,4 @@
-// A frame that is reduced to fit into a datagram.
+// Reduces a frame so that it fits into a datagram, for the preview message.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,12 @@
 namespace ols::video {
 
 struct PreviewPicture {
-  double scale = 1.0;  // size relative to the frame, at most 1
+  double scale = 1.0;  // width of the picture relative to that of the frame, at most 1
   std::vector<std::uint8_t> jpeg;
 };
 
-// Chooses the largest of some widths that fits; nullopt if none fits.
+// Tries widths of 480, 320 and 160 px and returns the first picture that fits; nullopt if none
+// fits.
 std::optional<PreviewPicture> preview_picture(const cv::Mat& gray);
 
 }  // namespace ols::video

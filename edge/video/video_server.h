@@ -1,7 +1,8 @@
-// Serves a station's pictures to permitted viewers, over TCP (docs/video.md). Each request is
-// answered with the newest frame that the viewer has not had yet. Nothing queues, however slow a
-// viewer or its network is, and nothing is compressed without a request. It has its own thread; the
-// control loop only leaves a reference to its frame.
+// Serves a station's pictures to permitted viewers, over TCP (docs/video.md). It answers each
+// request with the newest frame, and waits for one if the viewer already has the newest. Pictures
+// never queue, however slow a viewer or its network is, and a picture is compressed only on
+// request. The server has its own thread; the control loop only hands over a reference to its
+// newest frame.
 #pragma once
 
 #include <memory>
@@ -17,8 +18,8 @@ struct Section;
 namespace ols::video {
 
 struct VideoConfig {
-  // IP address and port, "10.0.0.11:7790" or "[fd00::11]:7790"; if empty, there is no video.
-  // Viewers learn it from the station's status.
+  // IP address and port to listen at, "10.0.0.11:7790" or "[fd00::11]:7790"; if empty, there is no
+  // video. Viewers find the address in the station's status.
   std::string address;
   // The viewers' networks, such as "10.0.0.0/24"; connections from elsewhere are refused.
   std::vector<std::string> allow = {"127.0.0.0/8", "::1/128"};
@@ -28,22 +29,22 @@ config::Section video_section(VideoConfig& config);  // the section [video]
 
 class VideoServer {
  public:
-  // More viewers than this are refused.
+  // Further viewers are refused.
   static constexpr int kMaxViewers = 8;
 
-  // Throws std::invalid_argument for a bad address or network. If the computer does not have the
-  // address (yet), the server reports this and tries again.
+  // Throws std::invalid_argument if the address or a network is malformed. If the computer does not
+  // have the address (yet), the server reports this and tries again.
   VideoServer(const VideoConfig& config, VideoSender sender);
   ~VideoServer();
   VideoServer(const VideoServer&) = delete;
   VideoServer& operator=(const VideoServer&) = delete;
 
-  // All functions below may be called from any thread, and none waits. has_viewers(): whether
-  // anybody is connected; if not, frames need not be offered.
+  // All functions below may be called from any thread, and none waits. has_viewers() returns
+  // whether a viewer is connected; if not, the caller need not offer frames.
   bool has_viewers() const;
-  // Call in order of time.
+  // Offers a frame to the viewers. Call in order of time.
   void offer(VideoFrame frame);
-  // The report's text is the listening address.
+  // The `text` in the report is the address at which the server listens.
   device::DeviceReport report() const;
 
  private:

@@ -1,4 +1,4 @@
-// The connection of one viewer of a station's video. It is used only by the video server's thread.
+// The connection of one viewer of a station's video. Only the video server's thread uses it.
 #pragma once
 
 #include <array>
@@ -27,22 +27,23 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
     kUncoded,    // the viewer requested a picture that cannot be coded
   };
   struct Callbacks {
-    // Called for a request, which must be answered with answer(), now or later.
+    // Called for each request. Its receiver must call answer(), now or later.
     std::function<void(VideoSession&)> asked;
-    // No callback is called after this one.
+    // Called once, when the connection ends; no callback is called after this one.
     std::function<void(VideoSession&, End)> ended;
   };
 
   VideoSession(boost::asio::ip::tcp::socket socket, Callbacks callbacks);
 
   void begin() { read_request(); }
-  // The request that waits for an answer; nullopt if there is none.
+  // The request that is waiting for its answer; nullopt if there is none.
   const std::optional<VideoRequest>& request() const { return request_; }
   void answer(const Bytes& message);
-  // The number of the last frame sent to the viewer; -1 if none was sent.
+  // The number of the last frame that was sent to the viewer; -1 if none was.
   std::int64_t had() const { return had_; }
   void note_had(std::int64_t frame) { had_ = frame; }
-  // The encoder of this connection. Every unit that it makes must be sent on this connection only.
+  // The encoder of this connection. Every unit that it makes must be sent on this connection, and
+  // on no other.
   H264Encoder& stream() { return stream_; }
   void close(End end);
 
@@ -50,7 +51,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   void read_request();
   void read_body(std::uint32_t length);
   void take(std::span<const std::uint8_t> body);
-  // Ends the session unless another step begins in time.
+  // Ends the session after this time, unless it is called again before.
   void expect_within(double seconds, End otherwise);
 
   boost::asio::ip::tcp::socket socket_;
