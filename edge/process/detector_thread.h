@@ -1,5 +1,5 @@
-// Runs the detector in its own thread, with lower priority than the control loop, because an image
-// takes tens of milliseconds.
+// Runs the detector in its own thread, with lower priority than the control loop, because the
+// detector needs tens of milliseconds for a picture.
 #pragma once
 
 #include <condition_variable>
@@ -15,15 +15,15 @@ namespace ols::station {
 class DetectorThread {
  public:
   explicit DetectorThread(const detector::DetectorConfig& config);
-  ~DetectorThread() = default;  // waits for the picture that is being processed
+  ~DetectorThread() = default;  // waits until the detector has finished its current picture
   DetectorThread(const DetectorThread&) = delete;
   DetectorThread& operator=(const DetectorThread&) = delete;
 
-  // Never waits. Give one picture at a time: the next one only after take() has returned the result
-  // of the last.
+  // Hands a picture to the thread; never waits. Call it again only after take() has returned the
+  // result of the previous picture.
   void give(detector::Picture picture);
   std::optional<detector::Found> take();
-  double picture_s() const { return picture_s_; }  // time that a picture takes, smoothed
+  double picture_s() const { return picture_s_; }  // processing time of a picture, smoothed
 
  private:
   void work(const std::stop_token& stop);

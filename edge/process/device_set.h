@@ -1,4 +1,4 @@
-// The devices of a station, each with its own thread. Any of them may be absent.
+// The devices of a station. Each has its own thread, and any of them may be absent.
 #pragma once
 
 #include <functional>
@@ -24,17 +24,17 @@ namespace ols::station {
 using OpenGpio = std::function<std::unique_ptr<gpio::GpioHandover>(gpio::GpioHandover::OnStop,
                                                                    gpio::GpioHandover::OnRearm)>;
 
-// The devices that the configuration chooses. A simulation provides its own instead.
+// The devices that a configuration names. A simulation provides simulated ones instead.
 struct ChosenDevices {
-  // Pointers are null for devices that are not configured. The device that `open_gpio` makes calls
-  // back from its own thread.
+  // Null for devices that are not configured. The GPIO that `open_gpio` makes calls its callbacks
+  // from its own thread.
   OpenGpio open_gpio;
   std::unique_ptr<lens::LensHandover> lens;
   std::unique_ptr<sensors::Inclinometer> inclinometer;
   std::unique_ptr<sensors::Gnss> gnss;
   std::unique_ptr<camera::Camera> camera;
-  // Last member, so that it is destroyed first: its destructor halts the mount, and other
-  // destructors may block.
+  // Last member, so that the mount is destroyed first: its destructor halts the motion, and the
+  // other destructors may take long.
   std::unique_ptr<mount::Mount> mount;
 };
 using OpenDevices = std::function<ChosenDevices(const StationSettings&)>;
@@ -48,7 +48,7 @@ class DeviceSet {
 
   camera::Camera& camera() { return *chosen_.camera; }
   mount::Mount& mount() { return *chosen_.mount; }
-  // These are null if not configured.
+  // The following ones are null, or nullopt, if not configured.
   gpio::GpioHandover* gpio() { return gpio_.get(); }
   lens::LensHandover* lens() { return chosen_.lens.get(); }
   std::optional<recorder::Recorder>& recorder() { return recorder_; }
@@ -59,8 +59,8 @@ class DeviceSet {
   // Passes the sensors' readings since the last call to `estimator`.
   void feed(sensors::PoseEstimator& estimator);
   // Permits the mount to move after an emergency stop, unless the stop has been pressed again. Also
-  // needed at the start: if a stop is configured, the mount is halted until the stop's level is
-  // known.
+  // needed once after the start, if a stop is configured: the constructor halts the mount, because
+  // the stop's level is not known yet.
   void rearm();
 
   // Reports of all configured devices; camera and mount come first.
@@ -72,7 +72,7 @@ class DeviceSet {
   StopLatch stop_;
   std::optional<recorder::Recorder> recorder_;
   std::optional<video::VideoServer> video_;
-  // gpio_ is declared last and destroyed first, because its thread uses the mount.
+  // gpio_ is the last member and thus destroyed first, because its thread uses the mount.
   ChosenDevices chosen_;
   std::unique_ptr<gpio::GpioHandover> gpio_;
 };

@@ -1,5 +1,5 @@
-// The station's pose from survey and sensors. After a restart it is the persisted pose
-// (pose_store.h) until the sensors report.
+// The station's pose, from its survey and its sensors. After a restart, the persisted pose
+// (pose_store.h) is used until the sensors report.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,13 @@ namespace ols::station {
 
 class KeptPose {
  public:
-  // Restores the persisted pose, but only for sensors that the station still has.
+  // Restores the parts of the persisted pose whose sensors are still configured.
   KeptPose(const StationSettings& settings, double now_s);
 
   sensors::StationPose pose(double now_s) const { return estimator_.pose(now_s); }
-  // Call in every turn. Returns the pose if one is due. Does not wait for the disk.
+  // Call in every turn of the control loop. Passes the devices' readings to the estimator, and
+  // persists the pose at intervals, without waiting for the disk. Returns the pose ten times a
+  // second, otherwise nullopt.
   std::optional<sensors::StationPose> look(DeviceSet& devices, double now_s);
   std::vector<Alarm> alarms(double now_s) const;
 

@@ -1,5 +1,5 @@
-// Persists the station's pose, as its sensors have measured it, in a file. So a station that
-// restarts while its receiver has no fix still has a position.
+// Persists the station's pose, as its sensors have measured it, in a file. With this file, a
+// station that restarts while its GNSS receiver has no fix still has a position.
 #pragma once
 
 #include <string>
@@ -12,21 +12,21 @@ namespace ols::station {
 
 class PoseStore {
  public:
-  // Reads `file`; if it is empty, nothing is persisted. trouble() reports a file that is damaged or
-  // cannot be read.
+  // Reads the persisted pose from `file`. If the name is empty, nothing is persisted. trouble()
+  // reports a file that is damaged or cannot be read.
   explicit PoseStore(const std::string& file);
 
-  // The pose that was found at the start.
+  // The pose that was in the file at the start.
   const sensors::PersistedPose& found() const { return found_; }
-  // Writes the pose soon, without waiting for the disk. Parts that are missing keep their persisted
-  // value.
+  // Has the pose written by another thread and returns at once. A part that is missing, position or
+  // tilt, keeps its value of the start.
   void keep(sensors::PersistedPose pose);
-  // Empty if there is no trouble.
+  // Why the pose was not read or cannot be written; empty if all is well.
   Alarm trouble() const;
 
  private:
   sensors::PersistedPose found_;
-  Alarm refused_;  // cleared when a pose has been saved
+  Alarm refused_;  // why the file was not used; cleared when a pose is written
   BackgroundFile file_;
 };
 

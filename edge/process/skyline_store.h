@@ -1,4 +1,4 @@
-// Saves the seen skyline in a file, so that a station knows it again after a restart.
+// Saves the seen skyline (glossary) in a file, so that the station still has it after a restart.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,21 @@ namespace ols::station {
 
 class SkylineStore {
  public:
-  // Reads `file`; if it is empty, nothing is saved.
+  // Reads the saved skyline from `file`. If the name is empty, nothing is saved.
   explicit SkylineStore(const std::string& file);
 
-  // What was found at the start, once. nullopt if there is none, or if it is another owner's.
+  // At the first call, returns the skyline that was in the file at the start. nullopt if there was
+  // none, or if it belongs to another owner, that is another station, calibration or kinematic
+  // chain.
   std::optional<skyline::HidingSkyline> take_found(const skyline::SkylineOwner& owner);
-  // Writes it every few minutes [monotonic s], without waiting for the disk.
+  // Writes `saved` if the last writing is at least kInterval_s ago; does not wait for the disk.
+  // `now_s`: CLOCK_MONOTONIC.
   void keep(const skyline::SavedSkyline& saved, double now_s);
-  // What is saved is no longer valid. Calls after the first one do nothing until keep().
+  // Replaces the saved skyline by an empty one, because it is no longer valid. Further calls do
+  // nothing until keep() has written again.
   void drop(const skyline::SkylineOwner& owner);
-  // Why the file was not used, until a skyline has been saved, or why it cannot be written; empty
-  // if there is no trouble.
+  // Why the file was not used (until a skyline is written), or why it cannot be written; empty if
+  // all is well.
   Alarm trouble() const;
 
   static constexpr double kInterval_s = 300.0;

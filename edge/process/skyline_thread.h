@@ -1,6 +1,6 @@
-// Compares pictures with the skyline of the land in its own thread, with lower priority than the
-// control loop, and keeps what hides targets. The thread also reads the land, which takes seconds:
-// a folder that cannot be read is an alarm, and the station runs without it.
+// Compares pictures with the skyline of the land, and collects the seen skyline (glossary). Has its
+// own thread, with lower priority than the control loop. The thread first reads the land, which
+// takes seconds. If the land cannot be read, there is an alarm, and the station runs without land.
 #pragma once
 
 #include <condition_variable>
@@ -20,23 +20,27 @@ namespace ols::station {
 
 class SkylineThread {
  public:
-  // `file`: where the seen skyline is saved; if empty, it is not.
+  // `folder`: the land, as `ols-land import` has written it. `file`: the file in which the seen
+  // skyline is saved; if empty, it is not saved.
   SkylineThread(const std::string& folder, const std::string& file,
                 const skyline::SkylineOwner& owner);
-  // Waits until the grid that is being read has been read, or the picture been compared. Other
-  // grids are not read any more, and a picture that is still waiting is dropped.
+  // Waits until the thread has finished its current work: reading one grid of the land, or
+  // comparing one picture. Further grids are not read, and a waiting picture is dropped.
   ~SkylineThread() = default;
   SkylineThread(const SkylineThread&) = delete;
   SkylineThread& operator=(const SkylineThread&) = delete;
 
-  // Whether a picture is wanted: some seconds after the last one, once the land has been read.
+  // Whether the thread needs a picture: five seconds after the last one, if the land has been read
+  // and no picture is being compared.
   bool wants(double now_s) const;
-  // Never waits. Call it only if wants() says so.
+  // Hands a picture to the thread; never waits. Call it only if wants() has returned true.
   void give(skyline::StatedPicture picture);
-  // `setup`: Station::setup_revision(). If it has changed, all that has been seen is forgotten.
+  // Call in every turn of the control loop. `setup`: Station::setup_revision(). If it has changed,
+  // the seen skyline is forgotten, because it was seen with another heading, tilt or position.
   void follow(int setup, const skyline::SkylineOwner& owner);
   std::vector<Alarm> alarms() const;
-  // A part of the seen skyline, once a second; nullopt while none is due, or no land is known.
+  // Returns the next part of the seen skyline, for publication, once a second; otherwise nullopt.
+  // Also nullopt without land.
   std::optional<skyline::SkylinePart> next_part(double now_s);
 
  private:
@@ -55,13 +59,13 @@ class SkylineThread {
   std::optional<skyline::StatedPicture> picture_;
   bool has_land_ = false;
   bool works_ = true;     // the land is being read, or a picture is waiting or being compared
-  bool forgets_ = false;  // before the next picture
+  bool forgets_ = false;  // true: forget the seen skyline before the next picture
   double due_s_ = 0.0, part_due_s_ = 0.0;
   int setup_ = 0;
   skyline::SkylineOwner owner_;
   Alarm alarm_, store_alarm_;
-  std::shared_ptr<const skyline::HidingSkyline> seen_;  // null: nothing
-  bool disagrees_ = false;                              // the heading
+  std::shared_ptr<const skyline::HidingSkyline> seen_;  // null if no skyline was seen
+  bool disagrees_ = false;                              // the pictures disagree with the heading
   skyline::SkylineParts parts_;
   std::jthread thread_;  // last member, because it uses the others
 };

@@ -1,4 +1,4 @@
-// The clocks of a station's process, read at the same instant, and the quality of its UTC.
+// UTC and monotonic clock of a station's process, read at the same instant, and the quality of UTC.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace ols::station {
 
-// Returns the newest reading of a time service since the last call.
+// A function that returns the newest reading of the time service; nullopt if there is none since
+// its last call.
 using TimeService = std::function<std::optional<clock::ClockReading>()>;
-// Kernel and chrony of this host, queried every few seconds.
+// The time service of this computer: kernel and chrony, queried every few seconds.
 TimeService host_time_service();
 
 class StationClock {
@@ -20,10 +21,10 @@ class StationClock {
   StationClock(const clock::ClockWatch::Config& config, TimeService service)
       : watch_(config), service_(std::move(service)) {}
 
-  // Call in every turn, before anything is published.
+  // Reads the clocks. Call in every turn of the control loop, before anything is published.
   clock::ClockPair look();
   clock::ClockQuality quality(double now_s) const { return watch_.quality(now_s); }
-  // Converts with the clocks of the last look().
+  // Converts monotonic time to UTC, with the difference of the clocks at the last look().
   std::int64_t utime_us(double monotonic_s) const;
 
  private:

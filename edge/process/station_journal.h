@@ -1,4 +1,4 @@
-// Writes the beginning and end of conditions at a station to the journal, and reports the station's
+// Writes to the journal when a station's alarms, states and faults begin and end, and reports the
 // newest fault. Pure.
 #pragma once
 
@@ -26,7 +26,8 @@ class StationJournal {
     std::string last_refusal;
     std::uint64_t refusals = 0;
   };
-  // Sets the report's last error, and removes alarms of devices that are only starting.
+  // Call with each report. Sets `last_error` in the report. In the first seconds after the start,
+  // also removes the alarms of devices that are still starting.
   void note(const clock::ClockPair& now, const Bus& bus, StationReport& report);
 
  private:
@@ -36,7 +37,7 @@ class StationJournal {
 
   FaultLog troubles_;
   JournalRateLimit limit_;
-  std::optional<double> begun_s_;  // time of the first note
+  std::optional<double> begun_s_;  // time of the first note()
   const std::string station_;
   const Write write_;
 };

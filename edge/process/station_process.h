@@ -1,4 +1,4 @@
-// One running station: devices, decisions and bus, in real time.
+// A running station: connects devices, decisions (Station) and bus, in real time.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@
 
 namespace ols::station {
 
-// What the process needs from its surroundings.
+// The parts that a simulation replaces.
 struct Outside {
   OpenDevices open_devices;
   TimeService time_service;
@@ -30,17 +30,18 @@ struct Outside {
 
 class StationProcess {
  public:
-  // Works without network and devices; it keeps trying to reach those that are absent.
+  // Does not throw if the network or devices are absent; the station then tries again and again to
+  // reach them.
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
                  Outside outside = {open_chosen_devices, host_time_service()});
 
-  // Runs until `ends` returns true. Notifies systemd. It is ready after the first turn, whichever
-  // devices are present.
+  // Runs until `ends` returns true. Notifies systemd: the station is ready after the first turn of
+  // the control loop, even if devices are absent.
   void run(const std::function<bool()>& ends);
 
-  // One turn of the control loop: commands, angles, the newest frame, bearings and the mount's
-  // goal; at intervals, also a status and a preview. It takes a few milliseconds, or as long as the
-  // tracker needs for a frame.
+  // One turn of the control loop. Handles commands, angles, the newest frame, bearings and the
+  // mount's goal. At intervals, also sends a status and a preview. A turn takes a few milliseconds,
+  // or as long as the tracker needs for a frame.
   void turn();
 
  private:
@@ -49,7 +50,7 @@ class StationProcess {
   void heed_emergency_stop(double now_s);
   void heed_rearming(double now_s);
   void receive_commands();
-  double take_frame();  // returns how long it waited for a frame [s]
+  double take_frame();  // returns the time [s] that it waited for a frame
   void show_frame(const camera::Frame& frame);
   bool is_night(double now_s);
   void detect(double now_s);
@@ -71,12 +72,12 @@ class StationProcess {
 
   const StationSettings& settings() const { return calibration_.settings(); }
 
-  // The monotonic times at which periodic actions are next due.
+  // The monotonic times at which periodic actions are due next.
   struct Due {
     double trigger_s = 0.0, status_s = 0.0, preview_s = 0.0;
   };
 
-  CalibrationSupervisor calibration_;  // also holds the settings
+  CalibrationSupervisor calibration_;  // also contains the settings
   ServiceNotifier service_;
   StationClock clock_;
   std::optional<KeptPose> pose_;  // always set; replaced when the calibration changes
@@ -86,10 +87,10 @@ class StationProcess {
   HostMonitor host_;
   PersistedStationState persisted_;
   StationJournal journal_;
-  // Destroyed after the devices, because these threads finish what they are doing first: the mount
-  // must not wait for them.
-  std::optional<DetectorThread> detector_;  // empty if not enabled
-  std::optional<SkylineThread> skyline_;    // empty if no land is configured
+  // Declared before the devices and thus destroyed after them: destroying these threads takes time,
+  // and the mount must be halted first.
+  std::optional<DetectorThread> detector_;  // nullopt if not enabled
+  std::optional<SkylineThread> skyline_;    // nullopt if no land is configured
   DeviceSet devices_;
   FrameDesk frames_;
   std::optional<camera::Frame> newest_;
