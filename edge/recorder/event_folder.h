@@ -1,6 +1,7 @@
-// One recorded event on disk: raw PNG frames named by utime (for a Bayer camera, the mosaic), and
-// frames.csv with `utime_us,number,file,mid_exposure_sd_s,pixel_format`. The folder's name is
-// NAME.partial until it is complete.
+// The folder of one recorded event. Contains the raw frames (for a Bayer camera, the mosaics) as
+// PNG files named by their utime, and frames.csv with the columns
+// `utime_us,number,file,mid_exposure_sd_s,pixel_format`. The folder's name is NAME.partial until
+// the event is complete.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +14,28 @@ namespace ols::recorder {
 
 inline constexpr const char* kPartial = ".partial";
 
-// Encodes without loss and with the least effort, because the tracker needs the processor. Throws
-// cv::Exception.
+// Encodes without loss and at the lowest compression, because the tracker needs the processor.
+// Throws cv::Exception.
 std::vector<unsigned char> encode_png(const RecordedFrame& frame);
 
-// All functions throw std::system_error with the path. Data already written remain.
+// All functions throw std::system_error with the path on a failure. Files that were written before
+// a failure remain.
 class EventFolder {
  public:
   EventFolder(const std::string& store, const std::string& name);
 
-  // Returns the number of bytes written. A frame that could not be written leaves nothing behind.
+  // Returns the number of bytes written. If a frame cannot be written, its incomplete file is
+  // removed.
   std::size_t write(const RecordedFrame& frame, const std::vector<unsigned char>& png);
   bool exists() const;
-  // Flushes to disk and gives the event its final name. May be retried.
+  // Flushes all data to the disk and gives the folder its final name. May be called again after a
+  // failure.
   void finish();
-  // Removes an event that has no frame.
+  // Removes the folder of an event that has no frames.
   void discard();
 
  private:
-  std::string path_;  // without kPartial
+  std::string path_;  // final path, without kPartial
 };
 
 }  // namespace ols::recorder

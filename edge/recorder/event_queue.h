@@ -1,5 +1,5 @@
-// The recorder's memory: the frames of the last few seconds, and the current events with their
-// frames that are still to be written. Pure; not thread-safe.
+// The recorder's memory. Contains the frames of the last few seconds, and the current events with
+// those of their frames that are not written yet. Pure; not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,13 @@ struct RecordedEvent {
   std::int64_t utime_us = 0;
   double start_s = 0.0, end_s = 0.0;
   std::deque<RecordedFrame> waiting;
-  double expected_bytes = 0.0;  // estimated bytes still to be written
+  double expected_bytes = 0.0;  // estimate of the bytes still to be written
   bool closed = false;          // no more frames will be added
   std::uint64_t written = 0;    // number of frames written
-  std::string unfinished;       // why the event could not be finished; its frames are all on disk
-  double retry_s = 0.0;         // time of the next attempt to finish it
-  std::string name;             // this member and the next one are used only by the writing thread
+  // why EventFolder::finish() failed; all frames are on the disk; empty if it did not fail
+  std::string unfinished;
+  double retry_s = 0.0;  // time of the next attempt to finish the event
+  std::string name;      // folder's name; `name` and `folder` are used only by the writing thread
   std::optional<EventFolder> folder;
 };
 
@@ -34,32 +35,35 @@ class EventQueue {
   explicit EventQueue(const RecorderConfig& config)
       : config_(config), memory_(config.memory_s, config.memory_max_bytes) {}
 
-  // Returns the number of frames that were dropped because too many are waiting.
+  // Takes a frame into the memory and into the events that it belongs to. Returns how many events
+  // have lost this frame, because too many frames are waiting to be written.
   int add(const RecordedFrame& frame);
-  // Why the command is refused, regardless of the disk; empty if it is accepted.
+  // The reason to refuse the command, not counting the disk; empty if there is none.
   std::string refusal(const RecordCommand& command, double now_s) const;
-  // Returns the number of buffered frames that were dropped.
+  // Begins an event, with the frames of its time that are in memory. Returns the number of frames
+  // that were dropped because too many are waiting to be written.
   int begin(const RecordCommand& command, std::int64_t event_utime_us);
-  // Largest disk space that the command's frames may need, estimated from those in memory.
+  // The disk space that the command's frames will need at most, estimated from the frames in
+  // memory.
   double expected_bytes(const RecordCommand& command) const;
   double still_to_write() const;
 
-  // Closes the events whose last frame must have arrived.
+  // Closes the events whose last frame must have arrived by now.
   void close(double now_s);
-  // Tries at once to finish the unfinished events.
+  // Makes next() return the unfinished events at once, without their pauses.
   void retry_all();
   struct Job {
-    RecordedEvent* event = nullptr;      // valid until remove()
-    std::optional<RecordedFrame> frame;  // nullopt if the event is to be finished
+    RecordedEvent* event = nullptr;      // valid until remove(*event)
+    std::optional<RecordedFrame> frame;  // frame to write; nullopt if the event is to be finished
   };
   std::optional<Job> next(double now_s);
   void remove(const RecordedEvent& event);
 
   bool work_waits() const;
   bool empty() const { return events_.empty(); }
-  // Names of events; empty for an event of which nothing is written yet.
+  // Folder names of the current events; an empty name for an event of which nothing is written yet.
   std::set<std::string> names() const;
-  // Why an event could not be finished; empty if there is no such event.
+  // Why an event could not be finished, if there is one; otherwise empty.
   std::string unfinished() const;
 
  private:

@@ -1,9 +1,9 @@
-// The folder of all events: its size, the free space on the disk, and the choice of the event that
-// may be removed.
+// The folder that contains all events. Measures its size and the free space on the disk, and
+// chooses the event to remove when space is needed.
 //
-// Any program on the bus can request recordings, so new recordings must not displace old ones
-// freely. In each interval of `protect_s` at most one event is removed, and only one older than
-// `protect_s`: the oldest one with the label that takes most space.
+// Any program on the bus can request recordings. New recordings must therefore not displace old
+// ones freely. In any period of `protect_s`, at most one event is removed, and it must be older
+// than `protect_s`. Among these, it is the oldest event of the label that occupies most space.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,11 @@
 
 namespace ols::recorder {
 
-// For example "20260301T120000.250Z"; such names sort by time.
+// The first part of an event's name, for example "20260301T120000.250Z"; alphabetical order is
+// order of time.
 std::string utc_name(std::int64_t utime_us);
 
-// Thrown if the disk has no space for the data.
+// Thrown if quota or disk have no space for the data.
 class DiskFull : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -35,19 +36,20 @@ class EventStore {
 
   explicit EventStore(Config config) : config_(std::move(config)) {}
 
-  // Checks the disk: creates the folder if it is missing, and measures events and free space.
-  // Throws std::system_error if it is not a folder, or cannot be written.
+  // Creates the folder if it is missing, and measures the events and the free space. Throws
+  // std::system_error if the path is not a folder, or if the folder cannot be written.
   void survey();
-  // As survey(), for a disk that has failed before: also writes a test file.
+  // As survey(), and also writes a test file. For a disk that has failed before.
   void try_writing();
 
-  // A name that is not in use.
+  // A name for a new event that is not in use yet.
   std::string free_name(std::int64_t utime_us, const std::string& label) const;
-  // If `bytes` more do not fit into the quota, removes an event that may be removed. It never
-  // removes one in `open`, because its frames are still arriving. Throws DiskFull if the bytes
-  // still do not fit, or would use the reserve of the disk. Ages are by UTC.
+  // Makes space for `bytes` more. If they do not fit into the quota, removes the event chosen as
+  // described above, but only if that suffices. Never removes an event in `open`, because its
+  // frames are still arriving. Throws DiskFull if the bytes do not fit into the quota, or if they
+  // would use the reserve of the disk. The age of an event is computed from `now_utime_us` (UTC).
   void make_room(double bytes, const Names& open, std::int64_t now_utime_us);
-  // The free space in the quota, including that of events that may be removed.
+  // The free space in the quota, including the space of the event that may be removed.
   double room_bytes(const Names& open, std::int64_t now_utime_us) const;
   void add(const std::string& name, double bytes) { events_[name] += bytes; }
   void finished(const std::string& name);
@@ -67,7 +69,7 @@ class EventStore {
   Events::const_iterator removable(const Names& open, std::int64_t now_utime_us) const;
 
   Config config_;
-  Events events_;  // bytes by folder name, including partial folders
+  Events events_;  // size [byte] by folder name, with the folders of incomplete events
   double free_bytes_ = 0.0;
   std::uint64_t removed_ = 0;
 };

@@ -1,4 +1,4 @@
-// The frames of the last few seconds; the memory is limited. Pure.
+// Keeps the frames of the last few seconds, up to a number of bytes. Pure.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,8 @@ class FrameMemory {
   FrameMemory(double span_s, double most_bytes) : span_s_(span_s), most_bytes_(most_bytes) {}
 
   void add(const RecordedFrame& frame);
-  // The frames between two instants (both included), oldest first.
+  // The frames from one instant to another (both included), oldest first. Monotonic times of
+  // mid-exposure.
   std::vector<RecordedFrame> between(double from_s, double to_s) const;
   const std::deque<RecordedFrame>& frames() const { return frames_; }
   std::size_t bytes() const { return bytes_; }

@@ -9,11 +9,11 @@ namespace ols::recorder {
 
 inline constexpr double kLateFrame_s = 1.0;  // largest delay of a frame after its exposure
 
-// Why this configuration cannot carry out the command, regardless of the frames in memory; empty if
-// it can.
+// Why the command cannot be carried out with this configuration, not counting the frames in memory;
+// empty if it can.
 std::string wrong_with(const RecordCommand& command, const RecorderConfig& config, double now_s);
 
-// Limits the rate of requests: eight at once, then one every 10 s.
+// Limits the rate of recording commands: eight at once, then one every 10 s.
 class RecordRate {
  public:
   bool admit(double now_s);

@@ -1,8 +1,8 @@
-// Stores the raw frames around an event, on request. It consists of a ring buffer in memory and a
-// thread that writes. A frame never waits for the disk. A full or read-only disk is reported, and
-// affects only the recording.
+// Records the raw frames before and after an event, on request. A ring buffer in memory keeps the
+// newest frames, and a thread writes. add() never waits for the disk. A full or read-only disk is
+// reported and affects nothing but the recording.
 //
-// Each event is one folder FOLDER/<UTC>_<label>/ with PNG frames named by utime, and frames.csv.
+// Each event has a folder FOLDER/<UTC>_<label>/, as described in event_folder.h.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ namespace ols::recorder {
 
 struct RecorderConfig {
   std::string folder;     // if empty, the station records nothing
-  double memory_s = 5.0;  // how long frames are kept in memory, for the time before an event
+  double memory_s = 5.0;  // length of the ring buffer, which contains the frames before an event
   double memory_max_bytes = 256e6;
-  double quota_bytes = 4e9;  // for all events together
-  // In each interval of this length, at most one event is removed to make room, and only one that
-  // is older than the interval. Otherwise, recordings that do not fit are refused. The default is
-  // one day, because a site and its alarms are checked that often.
+  double quota_bytes = 4e9;  // limit for all events together
+  // In any period of this length, at most one event is removed to make room, and only one that is
+  // older than protect_s. Recordings that still do not fit are refused. The default is one day,
+  // because people check a site and its alarms once a day.
   double protect_s = 86400.0;
-  double disk_reserve_bytes = 1e9;  // this much is always left free on the disk
+  double disk_reserve_bytes = 1e9;  // free space that recordings always leave on the disk
   double event_max_s = 60.0;
 };
 
@@ -45,7 +45,8 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  // Takes a frame into the memory (shares its pixels); never waits. `utime_us`: its mid-exposure.
+  // Takes a frame into the ring buffer, without copying its pixels; never waits. `utime_us`: UTC of
+  // the frame's mid-exposure.
   void add(const camera::Frame& frame, std::int64_t utime_us);
   // Returns empty if the command is accepted, otherwise the reason for the refusal.
   std::string record(const RecordCommand& command);
