@@ -1,5 +1,5 @@
-// The lines of a station's GPIO, driven in real time. A thread opens the lines, reopens them after
-// a failure, and waits for their edges.
+// The station's GPIO on real lines. A thread opens the lines, reopens them after a failure, and
+// waits for their edges.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace ols::gpio {
 
 class Gpio : public GpioHandover {
  public:
-  // The callbacks are called from that thread.
+  // That thread calls the callbacks.
   Gpio(const GpioConfig& config, OnStop on_stop, OnRearm on_rearm = {});
   ~Gpio() override;
 

@@ -1,4 +1,4 @@
-// The configuration of a station's [gpio].
+// The configuration of a station's GPIO lines.
 #pragma once
 
 #include <string>
@@ -9,23 +9,25 @@ struct Section;
 namespace ols::gpio {
 
 struct GpioConfig {
-  // "/dev/gpiochip0", or "socket:PATH" for lines served by another process; empty if there is no
-  // GPIO.
+  // "/dev/gpiochip0", or "socket:PATH" for lines that another process serves (gpio_lines.h); empty
+  // if there is no GPIO.
   std::string chip;
-  int led_line = -1;   // -1 if there is none
-  int stop_line = -1;  // emergency stop, normally closed, so that a broken wire is a stop
-  // The level of the line when the contact is open. False: high (the contact connects to ground,
-  // and the line is pulled up). True: low (the contact connects to the supply, and the line is
-  // pulled down).
+  int led_line = -1;  // -1 if there is none
+  // emergency stop; -1 if there is none; normally closed, so that a broken wire acts as a stop
+  int stop_line = -1;
+  // The level of stop_line when the contact is open, that is pressed. False: high, because the
+  // contact connects to ground and the line is pulled up. True: low, because the contact connects
+  // to the supply and the line is pulled down.
   bool stop_active_low = false;
   double stop_release_s =
-      0.05;  // a release counts after it has been stable for this time; a press counts at once
-  // The button at the station that re-arms it after an emergency stop; normally open.
+      0.05;  // A release counts when it has been stable for this time; a press counts at once.
+  // The button that re-arms the station after an emergency stop; normally open.
   int rearm_line = -1;  // -1 if there is none
-  // True: the button connects to ground (pulled up); false: to the supply.
+  // True: the button connects to ground, and the line is pulled up. False: the button connects to
+  // the supply, and the line is pulled down.
   bool rearm_active_low = true;
-  double rearm_hold_s = 1.0;      // the button must be seen open, and then be held for this long
-  bool rearm_over_bus = false;    // programs on the bus may re-arm the station, too
+  double rearm_hold_s = 1.0;      // the button must be held for this time, after it was seen open
+  bool rearm_over_bus = false;    // true: programs on the bus may re-arm the station, too
   int trigger_line = -1;          // camera trigger, one pulse per frame; -1 if there is none
   double trigger_pulse_s = 1e-3;  // length of the pulse
 

@@ -1,9 +1,9 @@
-// The station's GPIO: connects the control loop to the owner of the lines (Gpio, whose thread waits
-// for edges). Handles the status LED, the inputs for emergency stop and re-arming, and the optional
+// Connects the control loop to the owner of the GPIO lines; the owner is a derived class such as
+// Gpio. Handles the status LED, the inputs for emergency stop and re-arming, and the optional
 // camera trigger.
 //
-// The emergency stop in software only assists a hardware stop that cuts the power of the motors
-// (docs/field-guide.md).
+// This emergency stop by software is only an addition to a hardware stop that cuts the power of the
+// motors (docs/field-guide.md).
 #pragma once
 
 #include <functional>
@@ -27,27 +27,29 @@ class GpioHandover {
   using OnStop = std::function<void(bool pressed)>;
   using OnRearm = std::function<void()>;
 
-  // `on_stop` is called from turn() and failed(): at every edge of the emergency stop, and once for
-  // its first level. If a stop_line is configured, missing or unreadable lines count as pressed.
-  // `on_rearm` is called each time the button has been held while the stop is not pressed.
+  // turn() and failed() call `on_stop` for the first level of the emergency stop and at each
+  // change. If a stop_line is configured, missing or unreadable lines count as pressed. turn()
+  // calls `on_rearm` each time the button has been held long enough while the stop is not pressed.
   GpioHandover(const GpioConfig& config, OnStop on_stop, OnRearm on_rearm);
   virtual ~GpioHandover() = default;
   GpioHandover(const GpioHandover&) = delete;
   GpioHandover& operator=(const GpioHandover&) = delete;
 
-  // May be called from any thread; none of these waits for the device.
+  // The next four may be called from any thread; none of them waits for the device.
   void show(LedPattern pattern);
   void trigger();  // sends a pulse on trigger_line
-  // True also while the first level is not known. False without a stop_line.
+  // Also true while the level has not been read yet. False without a stop_line.
   bool stop_pressed() const;
   device::DeviceReport report() const;
 
-  // The functions below are for the owner of the lines, which calls all of them from one thread.
-  // Call opened() or failed() when the lines have been opened or have failed.
+  // The functions below are for the owner of the lines, which must call all of them from one
+  // thread. Call opened() when the lines have been opened, and failed() when they cannot be opened
+  // or have failed.
   void opened();
   void failed(const std::string& what);
-  // Call at each edge, at each wake(), and at the instant that the last call returned [s,
-  // CLOCK_MONOTONIC]. Throws what GpioLines throws.
+  // Reads the inputs, calls the callbacks, and drives the outputs. Call at each edge, at each
+  // wake(), and at the time that the last call has returned [s, CLOCK_MONOTONIC]. Throws
+  // std::system_error, as GpioLines does.
   double turn(GpioLines& lines);
   void leave(GpioLines& lines) const;
 
@@ -71,8 +73,8 @@ class GpioHandover {
   StopInput stop_;
   RearmInput rearm_;
   double refresh_s_ = 0.0;
-  std::optional<bool> lit_;          // as written to the line
-  double trigger_end_s_ = kNever_s;  // end of the pulse that is on the line
+  std::optional<bool> lit_;          // as last written to the line
+  double trigger_end_s_ = kNever_s;  // end of the current trigger pulse
 
   mutable std::mutex mutex_;  // guards everything below
   GpioFacts facts_;

@@ -1,13 +1,12 @@
-// GPIO lines: a few monitored inputs and a few outputs. There are two implementations. One uses
-// libgpiod (gpio_lines_libgpiod.cpp, the only file that depends on its version). The other one uses
-// a Unix socket (gpio_lines_socket.cpp) to another process that serves the lines. The socket is for
-// a remote I/O box, for a machine without a gpiochip, and for tests.
+// The interface of GPIO lines: a few monitored inputs and a few outputs. There are two
+// implementations. One uses libgpiod (gpio_lines_libgpiod.cpp, the only file that depends on
+// libgpiod's version). The other one uses a Unix socket to another process, which serves the lines
+// (gpio_lines_socket.cpp). The socket is for a remote I/O box, for a computer without a gpiochip,
+// and for tests.
 //
-// The socket's protocol is text, one message per line. The server sends the level of each input on
-// connect, at every change, and on request:
-//   server: in 17 1     input line 17 is high
-//   client: read 17     answered by "in 17 LEVEL" at once
-//   client: out 22 0    set output line 22 low
+// The socket's protocol is text, one message per line of text. The server sends the level of each
+// input when the client connects, at every change, and on request: server: in 17 1 input line 17 is
+// high client: read 17 answered by "in 17 LEVEL" at once client: out 22 0 set output line 22 low
 // Any other line ends the connection.
 #pragma once
 
@@ -32,11 +31,11 @@ struct LineUse {
 struct LineLevel {
   int line = 0;
   bool high = false;
-  double time_s = 0.0;  // CLOCK_MONOTONIC of the edge, or of the reading
+  double time_s = 0.0;  // CLOCK_MONOTONIC of the edge, or of the reading on request
 };
 
-// To be used by one thread only. All functions throw std::system_error, naming chip and line, if
-// the lines have vanished or cannot be read.
+// For use by one thread only. All functions throw std::system_error, with chip and line in its
+// message, if the lines have vanished or cannot be read.
 class GpioLines {
  public:
   virtual ~GpioLines() = default;
@@ -44,12 +43,12 @@ class GpioLines {
   GpioLines(const GpioLines&) = delete;
   GpioLines& operator=(const GpioLines&) = delete;
 
-  // The file descriptors to poll for reading.
+  // The file descriptors on which the owner waits (POLLIN); then it calls receive().
   virtual std::vector<int> fds() const = 0;
-  // New levels of the inputs; for each input, oldest first. Never waits.
+  // The new levels of the inputs; those of one input are in order of time. Never waits.
   virtual std::vector<LineLevel> receive() = 0;
-  // Requests the level of each input; receive() then returns it. This detects lost edges and dead
-  // lines.
+  // Requests the level of each input, which receive() then returns. This detects lost edges and
+  // dead lines.
   virtual void refresh() = 0;
   virtual void write(int line, bool high) = 0;
 };

@@ -1,4 +1,4 @@
-// The GPIO's state in the words of the status message. Pure.
+// The GPIO's state, and the report about it in the station's status message. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace ols::gpio {
 
-// The GPIO's state as its thread knows it.
+// The facts from which the report is made.
 struct GpioFacts {
   bool open = false;
   bool readable = false;          // a level has been read since the lines were opened
-  std::optional<bool> pressed{};  // the emergency stop's state at the last callback
+  std::optional<bool> pressed{};  // state of the emergency stop at the last call of on_stop
   std::optional<double> last_good_s{};
   std::string error{};
   std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
 };
 
-// True also while the first level is not known. False if there is no stop_line.
+// Also true while the level has not been read yet. False without a stop_line.
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts);
 
 device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);

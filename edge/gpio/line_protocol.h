@@ -18,11 +18,12 @@ class LineProtocol {
     bool operator==(const Level&) const = default;
   };
 
-  // `inputs`: the lines of interest; levels of other lines are ignored.
+  // `inputs`: the input lines in use; levels of other lines are ignored.
   explicit LineProtocol(std::vector<int> inputs) : inputs_(std::move(inputs)) {}
 
-  // Returns the levels that these bytes complete, oldest first. nullopt if a message is not a
-  // level: then end the connection and do not use this object any more.
+  // Takes received bytes. Returns the levels of all messages that these bytes complete, oldest
+  // first. nullopt if a message is not a level; the caller must then end the connection and discard
+  // this object.
   std::optional<std::vector<Level>> receive(std::string_view bytes);
 
  private:

@@ -1,6 +1,6 @@
-// The button that re-arms a station after an emergency stop. It must be seen open and then be held
-// for a while, so that a stuck button, a broken wire or a brief touch does not re-arm the station.
-// Pure.
+// The button that re-arms a station after an emergency stop. It must first be seen open, and then
+// be held for a while. Thus a stuck button, a broken wire or a short touch does not re-arm the
+// station. Pure.
 #pragma once
 
 #include <optional>
@@ -11,19 +11,20 @@ class RearmInput {
  public:
   explicit RearmInput(double hold_s) : hold_s_(hold_s) {}
 
-  // Takes a level of the line with the time of its edge, in order of time.
+  // Takes a level of the line with the time of its edge. Call in order of time.
   void level(bool closed, double time_s);
-  // Notes that the line cannot be read, or that the stop was pressed: the time held so far does not
-  // count.
+  // Notes that the line cannot be read, or that the emergency stop has changed. The button must
+  // then be seen open and be held again.
   void interrupted();
-  // True once each time the button has been held long enough.
+  // Whether the button has been held long enough; true only once each time.
   bool take(double now_s);
-  // When take() will become true if no further edge comes; nullopt if it will not.
+  // The time from which take() returns true if no edge comes before; nullopt if the button is not
+  // held.
   std::optional<double> due_s() const;
 
  private:
   double hold_s_;
-  bool seen_open_ = false;          // since the start, an interruption, or the last re-arming
+  bool seen_open_ = false;          // since the start, the last interruption, or the last re-arming
   std::optional<double> closed_s_;  // time since which the button is held
 };
 
