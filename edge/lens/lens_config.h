@@ -1,4 +1,4 @@
-// The configuration of a station's [lens_motor].
+// The configuration of a station's motorised lens.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct LensMotorConfig {
   int baud = 9600;
   double poll_interval_s = 0.05;
   double position_sd = 0.001;     // 1-sigma of a zoom position, including mechanical slack
-  std::vector<ZoomPoint> points;  // calibrated points, ascending by position
+  std::vector<ZoomPoint> points;  // calibrated points of the zoom, in ascending order of position
 };
 
 config::Section lens_motor_section(LensMotorConfig& config);  // the section [lens_motor]

@@ -1,6 +1,6 @@
-// Drives a lens with the VISCA protocol: one request at a time, orders before questions. Pure:
-// bytes and time in, bytes and zoom samples out. edge/lens/lens_motor.* connects it to a serial
-// port.
+// Drives a lens with the VISCA protocol. It sends one request at a time; orders precede questions.
+// Pure: it takes bytes and the time, and returns bytes and zoom samples. edge/lens/lens_motor.*
+// connects it to a serial port.
 #pragma once
 
 #include <deque>
@@ -18,29 +18,29 @@ class LensDriver {
  public:
   explicit LensDriver(double poll_interval_s) : poll_interval_s_(poll_interval_s) {}
 
-  // Takes bytes that had arrived by this instant of the monotonic clock.
+  // Takes the received bytes. `time_s`: monotonic time at which they had arrived.
   void receive(std::string_view bytes, double time_s);
-  // Advances time. Returns the bytes to write, which are often none. Call every few milliseconds.
+  // Returns the bytes to send now, often none. Call every few milliseconds.
   std::string step(double time_s);
 
-  // The newest order for an axis replaces the previous one. A rate ends at its own time, even if
-  // its sender is lost; the axis then stops where it is.
+  // Takes an order. For each axis, the newest order replaces the previous one. A rate ends at its
+  // until_s unless the sender renews it; the axis then stops where it is.
   void order(const LensOrder& order);
 
-  // Notes that the port was reopened: asks for everything again, and forgets the orders.
+  // Notes that the port was reopened. Discards the orders, and sets the lens up again.
   void restart();
-  // True once after the lens has left several consecutive requests unanswered; the caller must open
-  // the port again.
+  // Returns true, once, after the lens has not answered kSilent consecutive requests. The caller
+  // must then reopen the port.
   bool take_link_loss();
 
   std::vector<ZoomSample> take_samples();
   const LensState& state() const { return state_; }
   LensCounters counters() const;
 
-  // An acknowledgement takes at most the time of one picture.
+  // Longest wait for an answer. A lens acknowledges within the time of one picture.
   static constexpr double kReply_s = 0.3;
   static constexpr int kSilent = 8;
-  static constexpr double kIrisStep_s = 0.15;  // time between two iris steps at the highest rate
+  static constexpr double kIrisStep_s = 0.15;  // time between two iris steps at the maximum rate
 
  private:
   enum class Question { kSetup, kVersion, kPosition, kOrder };
@@ -54,7 +54,7 @@ class LensDriver {
     AxisOrder order;
     bool sent = false;
     double step_s = 0.0;  // time at which the next step of the iris is due
-    int refusals = 0;     // number of times that the order to stop was refused
+    int refusals = 0;     // number of times that the lens refused to stop
   };
 
   static bool is_stand(const std::optional<Pending>& pending);
@@ -67,7 +67,7 @@ class LensDriver {
 
   double poll_interval_s_;
   visca::Packets packets_;
-  std::size_t setup_ = 0;  // number of completed steps
+  std::size_t setup_ = 0;  // number of completed steps of the lens's setup
   std::optional<Request> waiting_;
   ByAxis<std::optional<Pending>> orders_;
   double polled_s_ = -1e9;

@@ -1,5 +1,5 @@
-// The motorised lens: connects the control loop to the owner of the line (LensMotor, on a serial
-// line). It holds the driver. Nothing throws.
+// Connects the control loop to the owner of the lens's serial line; the owner is a derived class
+// such as LensMotor. Contains the driver. No function throws.
 #pragma once
 
 #include <mutex>
@@ -22,14 +22,14 @@ class LensHandover {
   LensHandover(const LensHandover&) = delete;
   LensHandover& operator=(const LensHandover&) = delete;
 
-  // May be called from any thread; does not wait.
+  // The next four may be called from any thread; none of them waits for the lens.
   void order(const LensOrder& order);
-  // The samples since the last call, oldest first.
+  // The zoom samples since the last call, oldest first.
   std::vector<ZoomSample> take_samples();
   ByAxis<std::optional<double>> positions() const;
   device::DeviceReport report() const;
 
-  // The functions below are for the owner of the line. A turn takes the bytes that have arrived. It
+  // The functions below are for the owner of the line. turn() takes the bytes that have arrived. It
   // returns the bytes to send, whether the lens has reported its zoom, and whether the line must be
   // reopened.
   struct Turn {
@@ -38,11 +38,11 @@ class LensHandover {
     bool link_lost = false;
   };
   Turn turn(const std::string& arrived);
-  // Notes that the line was reopened; the lens may be another one.
+  // Notes that the line was reopened. The lens is set up again, because it may be another one.
   void restart();
 
  private:
-  // The report on the line alone, without the lens.
+  // The report about the line; report() adds the lens's data.
   virtual device::DeviceReport line() const = 0;
 
   mutable std::mutex mutex_;  // guards everything below

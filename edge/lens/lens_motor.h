@@ -1,5 +1,4 @@
-// The motorised lens on its serial line, driven in real time. A thread opens the port and reopens
-// it after a failure.
+// A motorised lens on a serial port. A thread opens the port and reopens it after a failure.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
-// Orders to a motorised lens, and its reports. Positions are shares of the travel: zoom 0 widest ..
-// 1 longest, focus 0 far .. 1 near, iris 0 closed .. 1 open. Rates are relative to the motor's
-// maximum speed, -1..1. Pure.
+// Orders to a motorised lens, and the lens's reports. Positions are shares of the travel, from 0 to
+// 1: zoom from widest to longest, focus from far to near, iris from closed to open. Rates are
+// relative to the motor's maximum speed, from -1 to 1. Pure.
 #pragma once
 
 #include <array>
@@ -25,31 +25,32 @@ struct ByAxis {
   }
 };
 
-// An order to an axis: a position to reach, or a rate until an instant of the monotonic clock.
+// An order to one axis: a position to reach or, if there is none, a rate until `until_s` (monotonic
+// time).
 struct AxisOrder {
   std::optional<double> position;
   double rate = 0.0;
   double until_s = 0.0;
 };
 
-// Orders to some axes; the other axes continue as before.
+// Orders to some of the axes. The other axes continue as before.
 struct LensOrder {
   ByAxis<std::optional<AxisOrder>> axes;
 };
 
-// A zoom position, read at about this instant of the monotonic clock.
+// A zoom position that the lens has reported.
 struct ZoomSample {
-  double time_s = 0.0;     // middle of the time in which it was read
+  double time_s = 0.0;     // monotonic time: middle between question and answer
   double time_sd_s = 0.0;  // 1-sigma
   double position = 0.0;
 };
 
-// Counters, which only increase.
+// Counters that only increase.
 struct LensCounters {
   std::uint64_t requests = 0, replies = 0;
-  std::uint64_t timeouts = 0;  // requests without an answer in time
-  std::uint64_t refusals = 0;  // errors in the lens's answers
-  std::uint64_t garbled = 0;   // bytes that are not part of a message
+  std::uint64_t timeouts = 0;  // requests that the lens did not answer in time
+  std::uint64_t refusals = 0;  // answers that are errors
+  std::uint64_t garbled = 0;   // packets of unknown form, and values of wrong form
 };
 
 struct LensState {

@@ -1,5 +1,5 @@
-// Gives the camera's focal length and principal point at any recent instant, from the reported zoom
-// and the lens's calibration. Pure.
+// Computes the camera's focal length and principal point at any recent instant, from reported zoom
+// positions and the lens's calibration. Pure.
 #pragma once
 
 #include <deque>
@@ -15,15 +15,16 @@ class ZoomLens {
   // `position_sd`: 1-sigma of a reported position, including mechanical slack.
   ZoomLens(const ZoomTable& table, double position_sd) : table_(table), position_sd_(position_sd) {}
 
-  // Call in order of time; a sample out of order is dropped.
+  // Adds a sample. Call in order of time; a sample that is not newer than the last one is dropped.
   void add(const ZoomSample& sample);
 
-  // nullopt if there is no report near that time. While the zoom moves, the deviation grows with
-  // its speed and with the time from the nearest sample.
+  // The calibrated values at `time_s`. nullopt if this is more than kSilent_s before the oldest or
+  // after the newest sample. While the zoom moves, their 1-sigma grows with its speed, with the
+  // error of the samples' times, and with the distance of `time_s` beyond the samples.
   std::optional<ZoomPoint> at(double time_s) const;
   std::optional<ZoomPoint> newest() const;
-  // Whether the zoom stood still at that time: the reports before and after it are the same but for
-  // the error of a position. nullopt if one of them is missing.
+  // Whether the zoom stood still at `time_s`: the samples just before and after differ by at most
+  // position_sd. nullopt if one of them is missing, or if they are more than kSilent_s apart.
   std::optional<bool> rests_at(double time_s) const;
 
   static constexpr double kMemory_s = 3.0;
