@@ -1,4 +1,4 @@
-// UTC and the monotonic clock at one instant.
+// CLOCK_MONOTONIC and UTC at one instant.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ struct ClockPair {
   std::int64_t utime_us = 0;
 };
 
-// Reads again if the process was interrupted between the two readings, because that would look like
-// a step of the clock.
+// Reads both clocks. If the process is interrupted between the two readings, it reads again,
+// because the interruption would look like a step of the clock.
 ClockPair read_clock_pair();
 
 }  // namespace ols::clock

@@ -1,5 +1,5 @@
-// Queries kernel and chrony about the clock. It uses its own thread, because chronyd may answer
-// slowly or not at all. Neither chronyc nor chronyd is required.
+// Periodically queries kernel and chrony about the state of the clock. It has its own thread,
+// because chronyd may answer slowly or not at all. It works without chronyc and chronyd, too.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,8 @@ class ClockSource {
   ClockSource(const ClockSource&) = delete;
   ClockSource& operator=(const ClockSource&) = delete;
 
-  std::optional<ClockReading> take();  // the newest reading since the last call
+  // the newest reading; nullopt if there is none since the last call
+  std::optional<ClockReading> take();
 
  private:
   struct Impl;

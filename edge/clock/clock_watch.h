@@ -1,21 +1,21 @@
-// Judges the accuracy of the station's UTC. Pure: edge/clock/clock_source.h reads kernel and
-// chrony.
+// Estimates the accuracy of the station's UTC, in three states. Pure: edge/clock/clock_source.h
+// reads kernel and chrony.
 //
-//  - synchronised: a time service states that it is. The error is the service's own estimate.
-//  - unsynchronised: a time service has run since boot, but is not synchronised (any more), or has
-//    been silent for a while. The error grows from its last good value, by the drift of a
-//    free-running clock. The same state holds after a step of the clock that no service has
+//  - synchronised: a time service states that the clock is synchronised. The error is the service's
+//    own estimate.
+//  - unsynchronised: a time service has run since boot, but it is not synchronised (any more), or
+//    there has been no reading for a while. The error grows from its last good value, by the drift
+//    of a free-running clock. The state is the same after a step of the clock that no service has
 //    confirmed.
-//  - unknown: there is no trace of a time service since boot. A person has set the clock,
-//    accurately or not. The error is the one assumed in the configuration; the fusion compares the
-//    stations' clocks.
+//  - unknown: there is no trace of a time service since boot. A person has set the clock, more or
+//    less accurately. The error is assumed_sd_s. The fusion compares the clocks of the stations.
 //
-// A step is a jump of CLOCK_REALTIME relative to CLOCK_MONOTONIC. Slewing by a service (which is
-// slow) and an announced leap second are not steps. A suspend looks like a step and is treated as
-// one, because the time after it comes from the battery clock. A step is confirmed when the service
-// has measured since then and states that it is synchronised. Without any service, the clock is
-// distrusted for `distrust_s` after a step. Then its state is unknown again, because the station
-// cannot decide whether the old or the new time was right.
+// A step is a jump of CLOCK_REALTIME relative to CLOCK_MONOTONIC. The slow slewing by a service and
+// an announced leap second are not steps. A suspend of the computer looks like a step and is
+// treated as one, because afterwards the time comes from the battery clock. A service confirms a
+// step when it has measured again and states that it is synchronised. Without any service, the
+// clock is distrusted for `distrust_s` after a step. Then the state is unknown again, because the
+// station cannot decide whether the old or the new time was right.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@
 
 namespace ols::clock {
 
-// The values are those of bearing_t.
+// The numerical values are those in the message bearing_t.
 enum class ClockState { kUnknown, kSynchronised, kUnsynchronised };
 
-// The state of the kernel (ntp_adjtime) and of chrony at one instant.
+// The state of the time service at one instant, from the kernel (ntp_adjtime) and chrony.
 struct ClockReading {
   double monotonic_s = 0.0;
   std::int64_t utime_us = 0;  // CLOCK_REALTIME at the same instant
@@ -38,9 +38,9 @@ struct ClockReading {
   std::optional<double> estimated_error_s;  // 1-sigma, stated by the service
   std::optional<double> offset_s;           // from chrony: system clock minus NTP time
   std::string source;                       // "chrony: PPS", "kernel"; empty if there is none
-  // UTC of the service's last measurement. A change means a new measurement.
+  // UTC of the service's last measurement; a changed value means a new measurement.
   std::optional<double> measured_utc_s;
-  int leap_s = 0;                      // leap second announced for the end of this day: +1, -1
+  int leap_s = 0;  // leap second announced for the end of this day: +1 inserted, -1 deleted, 0 none
   std::optional<int> tai_minus_utc_s;  // as the kernel states it
 };
 
@@ -49,8 +49,8 @@ struct ClockQuality {
   double error_s = 0.0;     // 1-sigma of UTC
   std::uint64_t steps = 0;  // number of steps of CLOCK_REALTIME relative to CLOCK_MONOTONIC
   double last_step_s = 0.0;
-  std::string text;                    // for people
-  Alarm alarm;                         // a condition that holds now; empty if there is none
+  std::string text;                    // the state in words, for people
+  Alarm alarm;                         // the present alarm about the clock; empty if there is none
   std::optional<double> offset_s;      // from the last reading
   std::optional<int> tai_minus_utc_s;  // from the last reading
 };
@@ -59,16 +59,16 @@ class ClockWatch {
  public:
   struct Config {
     double assumed_sd_s = 1e-3;  // 1-sigma of a clock of unknown quality
-    // How long the clock is distrusted after a step that no service confirms.
+    // Without any service: how long the clock is distrusted after a step.
     double distrust_s = 60.0;
-    double drift_per_s = 2e-5;  // growth of the error of a free-running clock
+    double drift_per_s = 2e-5;  // growth of the error of a free-running clock [s per s]
   };
   explicit ClockWatch(const Config& config) : config_(config) {}
 
-  // Call in every cycle of the control loop, so that no frame is stamped across a step. Both clocks
-  // must be read at one instant, as edge/clock/clock_pair.h does.
+  // Call in every turn (cycle) of the control loop, so that a step is noticed before the next
+  // frame's time is computed. Both clocks must be read at one instant, as by read_clock_pair().
   void tick(double monotonic_s, std::int64_t utime_us);
-  // Call from time to time, with a reading of the time service.
+  // Call for each reading of the time service.
   void add(const ClockReading& reading);
 
   ClockQuality quality(double monotonic_s) const;
