@@ -1,5 +1,5 @@
-// The direction from which each axis came to its present angle; the effect of backlash depends on
-// it. Pure.
+// Remembers the direction from which each axis has come to its angle. The effect of backlash
+// depends on this direction. Pure.
 #pragma once
 
 #include <deque>
@@ -8,24 +8,25 @@
 
 namespace ols::mount {
 
-// 1 or -1: sign of the last motion in counts; 0 if the axis has not moved since the first sample.
+// For each axis, the sign of its last motion in counts, 1 or -1; 0 if the axis has not moved since
+// the first sample.
 struct Approach {
   int pan = 0, tilt = 0;
 };
 
 class ApproachHistory {
  public:
-  // `step`: size of the unit's counts [rad]. A motion of less than a count and a half is taken as
-  // noise, because an axis at rest may report averages of two counts.
+  // `step`: size of the mount's counts [rad]. A motion of less than a count and a half is ignored
+  // as noise, because an axis at rest may report averages of two counts.
   explicit ApproachHistory(const PanTilt& step) : step_(step) {}
   void set_step(const PanTilt& step) { step_ = step; }
 
-  // Call in order of time. Changes older than ten seconds are forgotten, except the last one, which
-  // still applies.
+  // Adds the reported angles [rad]. Call in order of time. Changes of direction older than ten
+  // seconds are forgotten, except the last one, which still applies.
   void add(double time_s, const PanTilt& reported);
   void clear();
 
-  // The approach at this instant. For an instant after the newest sample: that of the newest.
+  // The approach at this instant; after the newest sample, the approach at that sample.
   Approach at(double time_s) const;
   Approach newest() const { return changes_.empty() ? Approach{} : changes_.back().approach; }
 
@@ -34,12 +35,12 @@ class ApproachHistory {
     bool known = false;
     double extreme_rad = 0.0;  // the furthest point reached in the present direction
     int sign = 0;
-    // Returns whether the sign changed.
+    // Returns whether the sign has changed.
     bool add(double angle_rad, double step_rad);
   };
   struct Change {
     double time_s;
-    Approach approach;  // applies from then on
+    Approach approach;  // applies from time_s on
   };
 
   PanTilt step_;

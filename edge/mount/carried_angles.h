@@ -1,5 +1,5 @@
-// The mount's angles at the instants of pictures, carried from its reports by the turns that the
-// pictures show. Reports may come late and rarely. Pure.
+// Computes the mount's angles at the instants of pictures: a reported angle plus the mount's
+// rotation since the report, which the pictures show. Reports may be late and rare. Pure.
 #pragma once
 
 #include <deque>
@@ -13,18 +13,18 @@ namespace ols::mount {
 
 class CarriedAngles {
  public:
-  // Neither reports nor pictures older than `span_s` are used.
+  // Reports and pictures older than config.span_s are not used.
   explicit CarriedAngles(const AngleHistory::Config& config)
       : config_(config), path_(config.span_s) {}
 
-  // Each in order of time.
+  // Call each of the two in order of time.
   void add(const AngleSample& sample);
   void add(const SeenTurn& turn);
   void clear();
 
-  // The angles in the picture that is stamped with this instant. The error of the pictures' stamps
-  // is part of the covariance; it is learnt together with the delay of the reports. nullopt without
-  // pictures of that time, and when the newest report is older than the span.
+  // The angles of the picture with the stamp `time_s`. The covariance includes the error of the
+  // pictures' stamps, which is estimated together with the delay of the reports. nullopt if there
+  // are no pictures of that time, or if the newest report is older than config.span_s.
   std::optional<AngleAt> at(double time_s) const;
 
  private:
@@ -35,8 +35,8 @@ class CarriedAngles {
   AngleHistory::Config config_;
   SeenPath path_;
   CarriedAxis pan_, tilt_;
-  double stamp_sd_s_ = 0.0;          // of the pictures
-  std::deque<AngleSample> waiting_;  // reports later than the newest picture
+  double stamp_sd_s_ = 0.0;          // 1-sigma of the stamps of all pictures
+  std::deque<AngleSample> waiting_;  // reports that are later than the newest picture
 };
 
 }  // namespace ols::mount

@@ -1,14 +1,16 @@
-// The angle of one axis, carried from the mount's reports to other instants by the turns that the
-// pictures show. Pure.
+// The angle of one axis between the mount's reports: a reported angle plus the axis's rotation
+// since the report, which the pictures show. Pure.
 //
-// A Kalman filter. Besides the angle at the newest report it estimates the causes of differences
-// between reports and pictures: the error of the time that all reports share; the scale (the
-// mount's gain, the lens's focal length); the motion of the scene itself (clouds). Only a changing
-// rate distinguishes these. Their values wander, so they are slowly forgotten.
+// It is a Kalman filter. Its state is the angle at the newest report and three causes of
+// differences between reports and pictures: an error of time that all reports share; a scale error
+// (the mount's gain, the lens's focal length); and a motion of the scene itself (clouds). These
+// three can be distinguished only if the rate changes. Their true values change slowly; old
+// information about them is therefore gradually forgotten.
 //
-// A report's error depends on the reported place. Another report of the same place therefore does
-// not improve the angle. Reports of other places improve it only as far as they are seen to
-// scatter. The rest of the stated error (backlash, for example) lasts.
+// The error of a report depends on the reported position. Another report of the same position
+// therefore does not improve the angle. Reports of other positions improve it only by the part of
+// the stated error that actually scatters. The rest of the stated error (backlash, for example) is
+// constant.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,32 +20,35 @@ namespace ols::mount {
 
 class CarriedAxis {
  public:
-  // What the mount reports.
+  // A report of the mount.
   struct Report {
     double angle_rad = 0.0;
-    double place_variance_rad2 = 0.0;  // error of the angle, which depends on the place
-    double time_sd_s = 0.0;            // 1-sigma of the instant (white)
-    double shared_time_sd_s = 0.0;     // 1-sigma of an error that the instants of all reports share
+    // variance of the angle's error, which depends on the position
+    double place_variance_rad2 = 0.0;
+    double time_sd_s = 0.0;         // 1-sigma of the report's time (white)
+    double shared_time_sd_s = 0.0;  // 1-sigma of an error that the times of all reports share
   };
-  // What the pictures show at one instant.
+  // The axis's rotation at one instant, as the pictures show it (SeenPath::At).
   struct Seen {
     double time_s = 0.0;
     double turned_rad = 0.0, rate_rad_s = 0.0;
-    double walk_rad2 = 0.0;  // variance of turned_rad, a random walk from the path's beginning
-    double bend_rad2 = 0.0;  // variance of turned_rad at this instant alone
+    double walk_rad2 = 0.0;  // variance of turned_rad: a random walk that begins with the path
+    double bend_rad2 = 0.0;  // additional variance of turned_rad at this instant alone
   };
   struct At {
     double angle_rad, rate_rad_s;
-    double variance_rad2;  // without the part that lasts
-    double lasting_rad2;   // does not average out
+    double variance_rad2;  // without lasting_rad2
+    double lasting_rad2;   // variance of the constant error, which does not average out
   };
 
-  // The report of an instant, in order of time. A report that contradicts the filter restarts it:
-  // the scene is then taken to move as fast as the contradiction shows.
+  // Adds a report and the pictures' rotation at its instant. Call in order of time. A report that
+  // contradicts the filter restarts it; the prior for the motion of the scene is then as large as
+  // the contradiction.
   void add(const Report& report, const Seen& seen);
-  // Call when the pictures' path begins anew: nothing connects it with the angle so far.
+  // Call when the pictures' path begins anew, because its rotation has then no relation to the
+  // earlier angle.
   void lose_angle() { newest_.reset(); }
-  // nullopt before the first report.
+  // The angle at the instant of `seen`; nullopt before the first report.
   std::optional<At> at(const Seen& seen) const;
   std::optional<double> newest_s() const {
     return newest_ ? std::optional(newest_->time_s) : std::nullopt;
@@ -61,12 +66,14 @@ class CarriedAxis {
   void learn_scatter(double off_rad, double explained_rad2);
   bool is_elsewhere(const Seen& seen) const;
 
-  std::optional<Seen> newest_;  // at the newest report, for which the state holds
+  // the pictures' rotation at the newest report, the instant of the state
+  std::optional<Seen> newest_;
   Vector state_ = Vector::Zero();
   std::optional<Matrix> covariance_;
-  double used_turned_rad_ = 0.0;  // at the last report that changed the state
-  double place_rad2_ = 0.0;       // as last stated
-  double scatter_rad2_ = 0.0;     // mean square difference of the reports from place to place
+  double used_turned_rad_ = 0.0;  // turned_rad at the last report that updated the state
+  double place_rad2_ = 0.0;       // place_variance_rad2 of the newest report
+  // mean square error of the reports that changes from position to position
+  double scatter_rad2_ = 0.0;
 };
 
 }  // namespace ols::mount

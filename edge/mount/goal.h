@@ -5,14 +5,14 @@
 
 namespace ols::mount {
 
-// Angles to reach at an instant, and their rates.
+// If rate_only is false: the angles to reach at time_s, and the rates there.
 struct Goal {
   double time_s = 0.0;  // on the station's monotonic clock
   PanTilt angles;
-  PanTilt rate;                // [rad/s] feed-forward; 0 if the goal is fixed
+  PanTilt rate;                // [rad/s] feed-forward; 0 for a fixed goal
   double valid_until_s = 0.0;  // the mount halts after this time
-  bool rate_only = false;      // only the rates are commanded, from wherever the mount is
-  bool rests = false;          // for a fixed goal: the mount comes to rest there
+  bool rate_only = false;      // true: only `rate` is ordered, wherever the mount is
+  bool rests = false;          // for a fixed goal: the mount must come to rest there
 };
 
 }  // namespace ols::mount

@@ -1,4 +1,4 @@
-// The range in which a mount can point, in its own angles. Pure.
+// The range in which a mount can point, in the mount's own angles. Pure.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace ols::mount {
 
-// A station reports angles in counts. For a mount without an encoder, a count has this size.
+// The size of a count for mounts that do not report counts; a station reports all angles in counts.
 inline constexpr double kVirtualCount_rad = radians(1e-4);
 
 struct Limits {  // [rad]
   double pan_min_rad = -2.7, pan_max_rad = 2.7;
   double tilt_min_rad = -0.8, tilt_max_rad = 0.5;
-  std::vector<KeepOut> keep_out = {};  // regions that the mount never enters or crosses
+  std::vector<KeepOut> keep_out = {};  // regions that the mount must not enter or cross
   // The size of a count on each axis; 0 if it is not known yet.
   PanTilt count = {};
 };
@@ -24,9 +24,9 @@ AngleBox travel(const Limits& limits);
 
 enum class Reach { kDirect, kLongWayRound, kUnreachable };
 
-// Whether the mount can point there. Pan angles that differ by 2 pi are the same direction. Sets
-// `angles` to those that are reached by the shortest path from `now`. kLongWayRound: the path turns
-// in the other direction, or goes around a keep-out region.
+// Whether the mount can point at `angles`. Pan angles that differ by 2 pi are the same direction;
+// reach() sets `angles` to the one that the shortest path from `now` reaches. kLongWayRound: the
+// path goes the longer way in pan, or around a keep-out region.
 Reach reach(const Limits& limits, const PanTilt& now, PanTilt& angles);
 
 }  // namespace ols::mount

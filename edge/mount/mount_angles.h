@@ -1,5 +1,6 @@
-// The mount's angles at an exposure: by its reports alone, or carried by the pictures if that is
-// more accurate and does not contradict the reports. Pure.
+// The mount's angles at an exposure. Computes them from the mount's reports alone (AngleHistory)
+// and from reports and pictures (CarriedAngles). Uses the latter if they are more accurate and do
+// not contradict the reports. Pure.
 #pragma once
 
 #include <optional>
@@ -13,15 +14,16 @@ class MountAngles {
  public:
   explicit MountAngles(const AngleHistory::Config& config) : reported_(config), carried_(config) {}
 
-  // Each in order of time. A report out of order is rejected.
+  // Call each of the two in order of time. Returns false and drops the report if it is out of
+  // order.
   bool add(const AngleSample& sample);
   void add(const SeenTurn& turn) { carried_.add(turn); }
   void clear();
 
-  // `stamp_sd_s`: 1-sigma of the instant, if this is a picture's stamp; the covariance includes it.
-  // nullopt if neither covers the instant.
+  // The angles at an instant. `stamp_sd_s`: 1-sigma of `time_s`, if it is a picture's stamp; the
+  // covariance includes its effect. nullopt if neither source covers the instant.
   std::optional<AngleAt> at(double time_s, double stamp_sd_s = 0.0) const;
-  // By the reports alone.
+  // The angles from the reports alone.
   const AngleHistory& reported() const { return reported_; }
 
  private:

@@ -1,5 +1,5 @@
-// A kind of mount: its keys in [mount], what a station knows before the mount is found, and the way
-// to open it.
+// A kind of mount: its keys in the configuration section [mount], its traits, and a function that
+// opens it.
 #pragma once
 
 #include <memory>
@@ -10,21 +10,21 @@
 
 namespace ols::mount {
 
-// What is known before the mount is found.
+// The properties of a mount that are known from its configuration, before it is connected.
 struct Traits {
-  bool moves = true;     // false: the mount obeys no order, and the station never waits for it
-  bool may_home = true;  // it can home on command
+  bool moves = true;     // false: the mount never moves and obeys no orders
+  bool may_home = true;  // true: it can home on command
   AngleHistory::Config angles;
-  Limits limits;  // as configured; the mount's own limits may be narrower
+  Limits limits;  // as configured; the connected mount may state narrower ones
 };
 
 class MountKind {
  public:
   virtual ~MountKind() = default;
-  virtual config::Section section() = 0;  // the section refers to this object
+  virtual config::Section section() = 0;  // binds its keys to this object's members
   virtual Traits traits() const = 0;
-  virtual std::string words() const = 0;  // the configured mount, in words
-  // Starts to look for the mount and returns at once.
+  virtual std::string words() const = 0;  // description of the configured mount
+  // Starts the mount's thread, which connects to the mount, and returns at once.
   virtual std::unique_ptr<Mount> open() const = 0;
 };
 

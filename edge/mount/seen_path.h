@@ -1,5 +1,5 @@
-// How the mount has turned, as the camera's pictures show it: the sum of the turns from picture to
-// picture. Pure.
+// The mount's rotation over time as the camera's pictures show it: the sum of the rotations from
+// picture to picture. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,16 @@
 
 namespace ols::mount {
 
-// The mount's turn between two pictures.
+// The mount's rotation between two pictures.
 struct SeenTurn {
-  double from_s = 0.0, to_s = 0.0;  // their mid-exposures, on the station's monotonic clock
-  // How much later than mid-exposure the rows in which the turn was seen were exposed; 0 for a
-  // global shutter.
+  // mid-exposures of the two pictures, on the station's monotonic clock
+  double from_s = 0.0, to_s = 0.0;
+  // For a rolling shutter: the time from from_s and to_s to the exposure of the rows in which the
+  // rotation was measured. 0 for a global shutter.
   double row_s = 0.0;
-  double stamp_sd_s = 0.0;  // 1-sigma of an error that the instants of all pictures share
+  double stamp_sd_s = 0.0;  // 1-sigma of an error that the stamps of all pictures share
   PanTilt turn;
-  PanTilt sd;  // [rad] 1-sigma, independent from turn to turn
+  PanTilt sd;  // [rad] 1-sigma of `turn`, independent of other turns
 };
 
 class SeenPath {
@@ -26,8 +27,8 @@ class SeenPath {
   explicit SeenPath(double span_s) : span_s_(span_s) {}
 
   enum class Added { kContinued, kBegun, kIgnored };
-  // A turn continues the path from the picture at which it begins. If that picture is not in the
-  // path, the path begins anew. A turn that ends before the path does is ignored.
+  // Adds a turn to the path at the picture from_s. If this picture is not in the path, the path
+  // begins anew with this turn. A turn whose to_s is not later than the path's end is ignored.
   Added add(const SeenTurn& turn);
   void clear() { knots_.clear(); }
 
@@ -35,16 +36,18 @@ class SeenPath {
     double time_s = 0.0;
     PanTilt turned;  // [rad] since the path began
     PanTilt rate;    // [rad/s]
-    PanTilt walk;    // [rad^2] variance of `turned`, a random walk from the path's beginning
-    PanTilt bend;    // [rad^2] variance at this instant, as the rate changes between pictures
+    PanTilt walk;    // [rad^2] variance of `turned`: a random walk that begins with the path
+    // [rad^2] additional variance at this instant, because the rate may change between pictures
+    PanTilt bend;
   };
-  // nullopt before the path, and more than one picture interval after its end.
+  // The rotation at an instant; nullopt before the path's beginning, and later than one picture
+  // interval after its end.
   std::optional<At> at(double time_s) const;
   bool covers(double time_s) const { return !knots_.empty() && time_s <= knots_.back().time_s; }
 
  private:
   struct Knot {
-    double picture_s, time_s;  // mid-exposure of the picture; instant of the angle
+    double picture_s, time_s;  // mid-exposure; the same plus row_s, the instant of `turned`
     PanTilt turned, walk;
   };
   double rate(std::size_t right, double PanTilt::*axis) const;

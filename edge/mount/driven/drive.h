@@ -1,10 +1,11 @@
-// Decides what to request next from a mount that takes velocities or places: its position, a
-// motion, or a stop. Pure.
+// Chooses the next request to a mount that obeys velocities or positions: a question for its
+// position, a motion, or a stop. Pure.
 //
-// Every motion has a lease. A velocity is ordered with the time-out `lease_s`, and again as long as
-// it is wanted. When orders cease, a mount that obeys the time-out stops. An absolute move
-// has no time-out and is ordered only for the last part of the way to a goal at rest. After each
-// connection a stop is ordered first, and repeated until the reported positions stand still.
+// Every velocity has a lease: it is ordered with the time-out `lease_s`, and renewed as long as it
+// is wanted. When the orders cease, a mount that obeys the time-out stops. An absolute move has no
+// time-out. It is ordered only for the last part of the way to a goal at rest, or if the mount
+// obeys no velocities. After each connection, the first order is a stop. It is repeated until the
+// reported positions no longer change.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@
 
 namespace ols::mount {
 
-// A position or velocity in the mount's own numbers.
+// A position or a velocity in the mount's own units.
 struct Vector {
   double x = 0.0, y = 0.0;
 };
@@ -34,13 +35,14 @@ struct Space {
   Span x, y;
 };
 
-// The moves that a mount offers.
+// The moves that a mount offers: to a position (absolute), at a velocity (continuous). Each has the
+// range of its numbers.
 struct Moves {
   std::optional<Space> absolute, continuous;
 };
 
-// Angles are linear functions of the mount's numbers. A negative factor means that the mount counts
-// in the other direction.
+// The linear relation between the angle of an axis and the mount's numbers. A negative factor means
+// that the mount counts in the opposite direction.
 struct AxisScale {
   double zero_rad = 0.0;            // the angle at position 0
   double per_unit_rad = 0.0;        // angle per unit of position
@@ -53,22 +55,22 @@ struct DriveConfig {
   ptu::ServoConfig servo{.gain_hz = 1.0, .max_speed_rad_s = radians(20.0)};
   PositionIntake::Config positions;
   double lease_s = 1.0;  // time-out of a velocity
-  double poll_s = 0.1;   // interval of requests for the position
+  double poll_s = 0.1;   // interval between questions for the position
 };
 
 enum class Act { kWait, kStatus, kStop, kVelocity, kAbsolute };
 struct Order {
   Act act = Act::kWait;
-  Vector vector;  // the motion, in the mount's numbers; a velocity of 0 means a stop
+  Vector vector;  // position or velocity in the mount's units; a velocity of 0 is a stop
 };
 
 class Drive {
  public:
   explicit Drive(const DriveConfig& config) : config_(config), intake_(config.positions) {}
 
-  // Call after each connection: the mount's position and motion are unknown then.
+  // Call after each connection. The mount's position and motion then count as unknown.
   void connected(const Moves& moves);
-  void lost();  // the connection was lost
+  void lost();  // call when the connection is lost
 
   void set_goal(const std::optional<Goal>& goal);
   void emergency_halt();
@@ -76,13 +78,13 @@ class Drive {
   bool in_emergency() const { return emergency_; }
 
   Order next(double now_s);
-  // done(): the mount has accepted the order. failed(): it refused the order, or could not be
-  // reached.
+  // Call done() when the mount has accepted the order. Call failed() when it has refused the order
+  // or could not be reached.
   void done(const Order& order, double now_s);
   void failed(const Order& order, double now_s);
   void take(const Vector& position, double sent_s, double answered_s);
 
-  // The new samples; none while the positions do not follow the orders.
+  // The samples since the last call; none while the reported positions do not follow the orders.
   std::vector<AngleSample> take_samples() {
     auto samples = intake_.take();
     if (distrusted_) samples.clear();
@@ -90,7 +92,7 @@ class Drive {
   }
   const Limits& limits() const { return limits_; }
   bool has_position() const { return !seen_.empty(); }
-  // Whether the mount reports positions and they do not change.
+  // Whether no motion is ordered and the reported positions do not change.
   bool stands() const { return motion_ == Motion::kNone && !moves(); }
   std::optional<double> last_position_s() const;
   const PositionIntake& intake() const { return intake_; }
@@ -107,7 +109,7 @@ class Drive {
     double time_s;
     PanTilt angles;
   };
-  // The travel of one axis since it was ordered in its present direction.
+  // The ordered and the reported travel of one axis in the present direction.
   struct Travel {
     double since_s = 0.0, ordered_rad = 0.0, from_rad = 0.0;
     int sign = 0;
@@ -136,20 +138,22 @@ class Drive {
   Motion motion_ = Motion::kNone;
   PanTilt rate_;              // [rad/s] the ordered rate
   PanTilt absolute_;          // the ordered position
-  double ordered_s_ = 0.0;    // when the last motion was ordered
-  double moved_for_s_ = 0.0;  // time of the newest position when the last motion was ordered
-  double asked_s_ = -1e9;     // when the position was last requested
+  double ordered_s_ = 0.0;    // time of the last order of a motion
+  double moved_for_s_ = 0.0;  // time of the newest position at that order
+  double asked_s_ = -1e9;     // time of the last question for the position
   bool stop_wanted_ = true;
   int stops_ = 0;                        // number of stops since the last motion
-  double stop_s_ = -1e9;                 // when the last stop was ordered
+  double stop_s_ = -1e9;                 // time of the last stop
   std::optional<double> rests_since_s_;  // time of the first accepted stop since the last motion
-  std::optional<PanTilt> rest_;          // position at which it came to rest
+  std::optional<PanTilt> rest_;          // position at which the mount came to rest
 
-  std::deque<Seen> seen_;  // positions of the last second
+  std::deque<Seen> seen_;  // positions of the last 0.6 s
   Travel pan_travel_, tilt_travel_;
-  bool distrusted_ = false;  // the positions did not follow an order, and have followed none since
-  double refused_until_s_ = -1e9;  // no motion until then: an order was refused or ignored
-  // When the mount was last seen to move without an order, not to stop, to ignore an order.
+  // true: the positions have not followed an order, and no later one either
+  bool distrusted_ = false;
+  // no motion is ordered until then, because one was refused or ignored
+  double refused_until_s_ = -1e9;
+  // When the mount was last observed to move without an order, not to stop, and to ignore an order.
   std::optional<double> unordered_s_, unstopped_s_, ignored_s_;
   Counters counters_;
 };

@@ -1,4 +1,4 @@
-// The keys of [mount] that every mount with a Drive has. Pure.
+// The keys of [mount] that all kinds of mounts with a Drive have. Pure.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace ols::mount {
 
-// Travel, speed, the interval of positions, their age and their error. The defaults are the present
-// values of `config`.
+// Keys for travel, gain, speed and polling interval, and for age and error of the positions. Their
+// defaults are the present values in `config`.
 std::vector<config::Row> drive_rows(DriveConfig& config);
-// Throws ConfigError for a travel that is empty.
+// Throws ConfigError if a travel is empty (minimum not below maximum).
 void check_travel(ConfigTable& table, const Limits& limits);
 
 }  // namespace ols::mount

@@ -1,6 +1,6 @@
-// The common part of mounts that obey velocities or positions and report their positions late.
-// Drive chooses the next order. The session of each kind connects, sends orders and takes
-// positions.
+// The common part of all mounts that obey velocities or positions and report positions with a
+// delay. Drive chooses the next order. The session, which differs from kind to kind, connects,
+// sends the orders and reads the positions.
 #pragma once
 
 #include <condition_variable>
@@ -19,21 +19,21 @@
 
 namespace ols::mount {
 
-// What a session and the callers of a mount share. The mutex guards all of it.
+// The data that a session shares with the callers of the mount. The mutex guards all members.
 struct SharedDrive {
   std::mutex mutex;
   std::condition_variable_any wake;  // notified in an emergency
   Drive drive;
-  bool usable = true;          // false: its angles must not be used, whatever it reports
-  std::string words;           // the mount and its capabilities, in words
-  std::string last_error;      // empty: none
+  bool usable = true;          // false: the reported angles must not be used
+  std::string words;           // description of the mount and its capabilities
+  std::string last_error;      // empty if there was none
   std::vector<Alarm> alarms;   // of this kind
-  std::optional<Alarm> fault;  // why the session does not connect for now
+  std::optional<Alarm> fault;  // why the session does not connect at present
   std::uint64_t orders = 0, errors = 0;
   std::map<std::string, std::uint64_t> counters;  // of this kind
 
   explicit SharedDrive(const DriveConfig& config) : drive(config) {}
-  // For `seconds`, or until an emergency or the end.
+  // Waits for `seconds`, but not longer than until an emergency or a stop request.
   void pause(double seconds, const std::stop_token& stop);
 };
 
@@ -44,11 +44,12 @@ class MountSession {
   MountSession(const MountSession&) = delete;
   MountSession& operator=(const MountSession&) = delete;
 
-  // Connects, calls opened(), calls Drive::connected(), and serves until a stop is requested; then
-  // it stops the mount. Throws std::exception if the connection fails; it is called again later.
+  // Connects, calls Drive::connected() and thread.opened(), and serves the mount until a stop is
+  // requested; then it stops the mount. Throws std::exception if the connection fails; run() is
+  // then called again after a pause.
   virtual void run(SharedDrive& shared, device::DeviceThread& thread,
                    const std::stop_token& stop) = 0;
-  // Interrupts the order that is being sent, so that a stop can follow at once. Call from any
+  // Interrupts the current request, so that a stop can follow at once. May be called from any
   // thread.
   virtual void interrupt() {}
 };
@@ -57,9 +58,9 @@ Traits driven_traits(const DriveConfig& config);
 
 class DrivenMount : public Mount {
  public:
-  // Starts to connect and returns at once.
+  // Starts the thread, which connects to the mount, and returns at once.
   DrivenMount(const DriveConfig& config, std::unique_ptr<MountSession> session);
-  ~DrivenMount() override;  // waits until the session has stopped the mount
+  ~DrivenMount() override;  // waits until the session has stopped the mount and ended
 
   void set_goal(const std::optional<Goal>& goal) override;
   std::vector<AngleSample> take_samples() override;
@@ -68,7 +69,7 @@ class DrivenMount : public Mount {
   void emergency_halt() override;
   void clear_emergency() override;
 
-  // Such a mount does not home: it has no reference that could be lost.
+  // These mounts do not home, because they have no reference that could be lost.
   Reference reference() const override;
   void home() override {}
   void stop_homing() override {}
@@ -85,7 +86,7 @@ class DrivenMount : public Mount {
 
   mutable SharedDrive shared_;
   std::unique_ptr<MountSession> session_;
-  device::DeviceThread thread_;  // last: it uses the others
+  device::DeviceThread thread_;  // last member, because it uses the others
 };
 
 }  // namespace ols::mount

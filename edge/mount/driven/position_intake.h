@@ -1,10 +1,10 @@
-// Converts the positions that a mount reports to angles with their times and errors. Pure.
+// Converts the positions that a mount reports to angle samples with times and errors. Pure.
 //
-// An answer contains no time. Its position is taken to hold `delay_s` before the middle between
-// request and answer. How far that instant scatters within the round trip is learnt in motion:
-// three positions in a row should lie on a straight line while the ordered rate is constant. Many
-// mounts renew their position only a few times a second. A position that is still the same although
-// the ordered motion should have changed it is old, and is not used.
+// An answer contains no time. The time of its position is assumed as the middle between request and
+// answer, minus `delay_s`. The scatter of this time within the round trip is learnt in motion:
+// while the ordered rate is constant, three consecutive positions should lie on a straight line.
+// Many mounts renew their position only a few times a second. If the ordered motion should have
+// changed the position, but the report is the same as before, the report is old and is not used.
 #pragma once
 
 #include <array>
@@ -18,30 +18,31 @@
 
 namespace ols::mount {
 
-// The larger of the differences of the two axes [rad].
+// The difference [rad] of the axis that differs more.
 double distance(const PanTilt& a, const PanTilt& b);
 
 class PositionIntake {
  public:
   struct Config {
-    double delay_s = 0.05;         // age of a position in the middle between request and answer
+    double delay_s = 0.05;         // age of a position at the middle between request and answer
     double delay_sd_s = 0.05;      // 1-sigma of delay_s
     double sd_rad = radians(0.1);  // 1-sigma of a position: repeatability
   };
   explicit PositionIntake(const Config& config) : config_(config) {}
 
-  // An accepted order; nullopt: a move to a place, whose rate is not known.
+  // Notes an order that the mount has accepted. `rate`: nullopt for a move to a position, because
+  // its rate is not known.
   void ordered(const std::optional<PanTilt>& rate, double now_s);
-  // `ordered_rad_s`: the ordered speed of the faster axis; 0 at rest.
+  // Adds a reported position. `ordered_rad_s`: the ordered speed of the faster axis; 0 at rest.
   void add(const PanTilt& angles, double sent_s, double answered_s, double ordered_rad_s);
   void restart();
   std::vector<AngleSample> take() { return samples_.take(); }
 
   double round_trip_s() const { return round_trip_s_; }
-  // The time between two positions that differ, in motion; 0 if it is not known yet.
+  // The interval at which the mount renews its position in motion; 0 if it is not known yet.
   double interval_s() const;
-  // 1-sigma of a position: the configured value, or the scatter of positions at rest if that is
-  // larger.
+  // 1-sigma of a position: the configured value or the scatter of the positions at rest, whichever
+  // is larger.
   double sd_rad() const;
 
  private:
@@ -49,7 +50,8 @@ class PositionIntake {
     double time_s;
     std::optional<PanTilt> rate;
   };
-  // A position in motion. `spread_s`: the 1-sigma of an instant anywhere in its round trip.
+  // A position in motion. `spread_s`: 1-sigma of an instant that is uniformly distributed over the
+  // round trip.
   struct Moved {
     double time_s, spread_s;
     PanTilt angles;
@@ -69,10 +71,10 @@ class PositionIntake {
   PanTilt rest_mean_;
   double rest_variance_rad2_ = 0.0;
   int rest_count_ = 0;
-  std::deque<RateOrder> orders_;  // the last ones, and the one in force before them
+  std::deque<RateOrder> orders_;  // the orders of the last ten seconds, and the one before them
   std::array<Moved, 3> moved_in_row_{};
-  // Means of the squared distances from straight lines beyond what sd_rad() explains, and of what
-  // the round trips would explain.
+  // Mean squared distances of positions from straight lines: observed, after subtraction of the
+  // part that sd_rad() explains; and expected, if times were distributed over the whole round trip.
   double seen_spread_rad2_ = 0.0, whole_spread_rad2_ = 0.0;
   std::optional<double> added_s_;  // time of the last sample
 };

@@ -1,4 +1,4 @@
-// Mounts that stand still, as a kind of mount (mount_kind.h).
+// The mount kind for mounts that never move (mount_kind.h).
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// A mount for a camera that stands still: its angles never change. Orders to move do nothing. The
-// station refuses such orders and says why, because the mount's traits say that nothing moves.
+// A mount that never moves: its angles are constant, and it ignores all orders. The station refuses
+// orders to move and states the reason, because Traits::moves is false.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ struct FixedMountConfig {
 
 Limits fixed_limits(const PanTilt& angles);
 std::string fixed_words(const PanTilt& angles);  // "fixed at pan 10.00, tilt 5.00 deg"
-// The samples after `last_s` up to now, twenty per second; after a long time, only the newest.
+// The samples after `last_s` until `now_s`, twenty per second, but only those of the last second.
 std::vector<AngleSample> fixed_samples(const PanTilt& angles, double last_s, double now_s);
 
 class FixedMount : public Mount {

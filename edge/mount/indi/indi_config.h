@@ -14,12 +14,12 @@ struct IndiConfig {
 
   std::string host = "localhost";
   int port = 7624;
-  std::string device;  // as its driver names it: "Telescope Simulator"
+  std::string device;  // the driver's name of the device: "Telescope Simulator"
   Axes axes = Axes::kEquatorial;
-  std::string pier_side;     // "PIER_WEST", "PIER_EAST"; empty: that of the first connection
-  mount::DriveConfig drive;  // positions in radians
+  std::string pier_side;  // "PIER_WEST" or "PIER_EAST"; if empty, the side at the first connection
+  mount::DriveConfig drive;  // positions and velocities in radians
 };
 
-config::Section indi_section(IndiConfig& config);  // of [mount]
+config::Section indi_section(IndiConfig& config);  // the section [mount]
 
 }  // namespace ols::indi

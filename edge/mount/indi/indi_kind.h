@@ -1,4 +1,4 @@
-// Telescope mounts behind an INDI server as a kind of mount.
+// The mount kind for telescope mounts behind an INDI server (mount_kind.h).
 #pragma once
 
 #include <memory>

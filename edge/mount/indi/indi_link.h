@@ -1,5 +1,6 @@
-// A telescope behind an INDI server (libindiclient): its reports, and orders to it. The library
-// receives in its own thread. Call heard() from any thread, all other functions from one thread.
+// The connection to a telescope behind an INDI server, by libindiclient: the telescope's reports,
+// and orders to it. The library receives in its own thread. heard() may be called from any thread;
+// all other functions must be called from one thread.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +13,28 @@
 
 namespace ols::indi {
 
-// "no INDI server at localhost:7624"
+// For example "no INDI server at localhost:7624".
 struct IndiError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 // The telescope's reports since the connection.
 struct Heard {
-  bool lost = false;  // server or driver are gone
+  bool lost = false;  // the server or the driver is gone
   bool has_device = false;
-  bool is_connected = false;  // the driver, to the telescope
+  bool is_connected = false;  // the driver is connected to the telescope
   std::optional<Equatorial> position;
-  double position_s = 0.0;  // when it came, CLOCK_MONOTONIC
-  bool slews = false;       // on its way to ordered coordinates
+  double position_s = 0.0;  // arrival of `position`, CLOCK_MONOTONIC
+  bool slews = false;       // the telescope is moving to ordered coordinates
   std::optional<Observer> observer;
-  std::optional<double> fastest_rad_s;  // track rate of both axes; nullopt: it has none
+  // largest track rate of both axes; nullopt if it takes no track rates
+  std::optional<double> fastest_rad_s;
   bool can_stop_tracking = false;
   bool tracks = false;
-  bool is_parked = false, parks = false;  // the latter: on its way there
-  std::string pier_side;                  // "PIER_WEST"; empty: it does not say
+  bool is_parked = false, parks = false;  // parks: it is moving to its parking position
+  std::string pier_side;                  // "PIER_WEST" or "PIER_EAST"; empty if not stated
   std::uint64_t positions_refused = 0, motions_refused = 0, stops_refused = 0;
-  std::string message;  // the last one
+  std::string message;  // the driver's last message
 };
 
 class IndiLink {
@@ -42,23 +44,23 @@ class IndiLink {
   IndiLink(const IndiLink&) = delete;
   IndiLink& operator=(const IndiLink&) = delete;
 
-  void open();  // waits for the server; throws IndiError
+  void open();  // connects to the server and waits for the result; throws IndiError
   Heard heard() const;
 
   void connect_telescope();
   void unpark();
-  void set_interval(double interval_s);  // of its reports
-  void stop();                           // a slew, and tracking
+  void set_interval(double interval_s);  // sets the interval of the telescope's reports
+  void stop();                           // ends slewing and tracking
   void track(const TrackRate& rate);
   void go_to(const Equatorial& to);
-  // The rate at which it tracks on our order.
+  // The rate of the last track(); nullopt after stop() or go_to().
   const std::optional<TrackRate>& ordered() const { return ordered_; }
 
  private:
   class Client;
   std::unique_ptr<Client> client_;
   std::optional<TrackRate> ordered_;
-  double began_s_ = 0.0;  // when it was ordered to track
+  double began_s_ = 0.0;  // when tracking was last ordered to begin
 };
 
 }  // namespace ols::indi

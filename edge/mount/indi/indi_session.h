@@ -1,8 +1,8 @@
-// A connection to a telescope mount behind an INDI server. Its reported positions are used
-// unchanged, as long as it stays on its side of the pier.
+// A session with a telescope mount behind an INDI server. The reported positions are used without a
+// model of the telescope's errors, as long as the telescope stays on its side of the pier.
 //
-// An INDI telescope keeps its last track rate when its client is gone. A station that was killed
-// therefore stops the telescope at its next start.
+// An INDI telescope continues at its last track rate when its client is gone. If a station was
+// killed, it stops the telescope at its next start.
 #pragma once
 
 #include <functional>
@@ -32,11 +32,11 @@ class IndiSession : public mount::MountSession {
   PanTilt angles_at(double monotonic_s) const;
 
   const IndiConfig config_;
-  std::string pier_side_;      // as configured, or the first one reported
-  bool was_unparked_ = false;  // once, at the first connection
+  std::string pier_side_;      // as configured, or as first reported
+  bool was_unparked_ = false;  // the telescope is unparked only at the first connection
   Heard heard_;
-  double taken_s_ = 0.0;                 // the newest position that the drive has
-  std::optional<double> slews_since_s_;  // since when it slews to an ordered position
+  double taken_s_ = 0.0;                 // time of the newest position that the drive has taken
+  std::optional<double> slews_since_s_;  // when the slew to an ordered position began
 };
 
 }  // namespace ols::indi

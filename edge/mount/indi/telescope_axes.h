@@ -1,15 +1,16 @@
-// Converts between the right ascension and declination of date that an INDI telescope reports and
-// the angles of its axes, with the IAU's models (ERFA). Pure.
+// Converts between right ascension and declination of date, as an INDI telescope reports them, and
+// the angles of the telescope's axes. Uses the IAU's models (ERFA). Pure.
 //
-// Equatorial: the pan axis points to the celestial pole above the horizon; a positive pan turns
-// left about it. In the north pan is minus the hour angle and tilt the declination, in the south
-// pan is the hour angle and tilt minus the declination. Altazimuth: pan is minus the azimuth, tilt
-// is the elevation.
+// Equatorial: the pan axis points to the celestial pole above the horizon; positive pan is a left
+// turn about it. On the northern hemisphere, pan is minus the hour angle, and tilt is the
+// declination. On the southern one, pan is the hour angle, and tilt is minus the declination.
+// Altazimuth: pan is minus the azimuth, and tilt is the elevation.
 //
-// The driver computes right ascension from its axis, its clock and its longitude, with UT1 = UTC.
-// The same sidereal time gives the angle of the axis again. It is computed with the driver's
-// longitude and the station's clock. The driver's clock must agree with that clock: a difference of
-// one second is an error of 15 arc seconds.
+// A driver computes the right ascension from the axis's angle and its sidereal time; it computes
+// this sidereal time from its clock and longitude, with UT1 = UTC. The angle is recovered here with
+// the sidereal time from the station's clock and the driver's longitude. The driver's clock must
+// therefore agree with the station's clock: a difference of one second is an error of 15 arc
+// seconds.
 #pragma once
 
 #include "geometry/kinematic_chain.h"
@@ -21,7 +22,7 @@ enum class Axes { kEquatorial, kAltAzimuth };
 struct Equatorial {  // of date
   double ra_rad = 0.0, dec_rad = 0.0;
 };
-struct Observer {  // the place that the driver uses
+struct Observer {  // the telescope's place according to the driver
   double latitude_rad = 0.0, longitude_rad = 0.0;
 };
 // Rates of the telescope relative to the ground [rad/s]: INDI's track rates.
@@ -29,10 +30,10 @@ struct TrackRate {
   double hour_angle_rad_s = 0.0, dec_rad_s = 0.0;
 };
 
-// Apparent local sidereal time.
+// The apparent local sidereal time.
 double sidereal_time_rad(double utc_s, double longitude_rad);
 
-// Pan within half a turn of `middle_rad`.
+// The axes' angles; pan is within half a turn of `middle_rad`.
 PanTilt axes_of(Axes axes, const Equatorial& seen, const Observer& observer, double utc_s,
                 double middle_rad);
 Equatorial equatorial_of(Axes axes, const PanTilt& angles, const Observer& observer, double utc_s);

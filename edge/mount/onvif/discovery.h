@@ -1,5 +1,6 @@
-// Finds ONVIF cameras by their answers to a probe. Pure; discovery_link.* sends and receives.
-// Source: WS-Discovery (April 2005), SOAP-over-UDP, ONVIF Core Specification 7.3.
+// Finds ONVIF cameras by their answers to a probe, a question to all devices of a network. Pure;
+// discovery_link.* sends and receives. Sources: WS-Discovery (April 2005), SOAP-over-UDP, ONVIF
+// Core Specification 7.3.
 #pragma once
 
 #include <cstddef>
@@ -9,28 +10,29 @@
 namespace ols::onvif {
 
 struct FoundCamera {
-  std::string id;    // of the device, whatever its address: "urn:uuid:..."
-  std::string url;   // of its device service, at the host that answered
-  std::string name;  // as it calls itself; empty: it does not
+  std::string id;    // identifies the device independently of its address: "urn:uuid:..."
+  std::string url;   // address of the device service, at the host that answered
+  std::string name;  // the camera's name for itself, with its model; empty if not stated
 };
 
-// The question to all cameras. `message_id`: "urn:uuid:...", never used before.
+// The text of a probe. `message_id`: "urn:uuid:...", which must never have been used before.
 std::string probe(const std::string& message_id);
 
-// Finds the cameras among everything that answers. An answer is refused, with the reason in words,
-// if it is damaged, has a document type, answers another question, is of another kind of device,
-// names no usable address at the host that sent it, or contradicts an earlier one.
+// Collects the cameras from the answers to one probe. An answer is refused if it is damaged, has a
+// document type, answers another probe, comes from another kind of device, contains no usable
+// address at the host that sent it, or contradicts an earlier answer.
 class Discovery {
  public:
   static constexpr std::size_t kMostCameras = 64, kMostRefused = 32;
 
   explicit Discovery(std::string message_id) : message_id_(std::move(message_id)) {}
 
-  // `sender`: the IP address that a datagram came from.
+  // Takes a received datagram. `sender`: IP address of the host that sent it.
   void add(const std::string& datagram, const std::string& sender);
 
   const std::vector<FoundCamera>& cameras() const { return cameras_; }
-  const std::vector<std::string>& refused() const { return refused_; }  // "10.0.0.5: no XAddrs"
+  // sender and reason of each refused answer: "10.0.0.5: no XAddrs"
+  const std::vector<std::string>& refused() const { return refused_; }
 
  private:
   void add(FoundCamera camera);

@@ -1,5 +1,6 @@
-// One HTTP exchange at a time with a camera, over a connection that is kept (libcurl). Redirections
-// and proxies are not followed, because the password is meant only for the configured host.
+// HTTP exchanges with a camera, one at a time, over a persistent connection (libcurl). Redirections
+// are not followed and proxies are not used, because the password may go only to the configured
+// host.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@ namespace ols::onvif {
 struct HttpError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// Thrown when interrupt() has ended the exchange.
+// Thrown by post() if interrupt() has ended the exchange.
 struct Interrupted : HttpError {
   Interrupted() : HttpError("interrupted") {}
 };
@@ -24,7 +25,9 @@ class HttpLink {
   static constexpr std::size_t kLongestAnswer = 256 * 1024;
   struct Config {
     double timeout_s = 2.0;  // for a whole exchange
-    std::string pinned_key;  // "sha256//..." of the camera's certificate; empty: trusts authorities
+    // "sha256//...": hash of the public key in the camera's certificate; if empty, the certificate
+    // must be signed by a known authority
+    std::string pinned_key;
   };
   struct Answer {
     long status = 0;
@@ -37,11 +40,12 @@ class HttpLink {
   HttpLink(const HttpLink&) = delete;
   HttpLink& operator=(const HttpLink&) = delete;
 
-  // `digest`: the login for HTTP digest; null for no login. Throws HttpError.
+  // Sends `text` and waits for the answer. `action`: the SOAP action. `digest`: the login by HTTP
+  // digest; null for none. Throws HttpError.
   Answer post(const std::string& url, const std::string& action, const std::string& text,
               const Credentials* digest);
 
-  // May be called from any thread. Ends the current exchange, and refuses others until resume().
+  // Ends the current exchange, and refuses others until resume(). May be called from any thread.
   void interrupt();
   void resume();
 

@@ -9,12 +9,13 @@
 namespace ols::onvif {
 
 struct OnvifConfig {
-  std::string url;            // address of the device service, without user and password
-  std::string user;           // empty: none
-  std::string password_file;  // the password is its first line; read at each connection
-  std::string profile;        // token of the profile; empty: the first one with PTZ
-  std::string pinned_key;     // as in HttpLink::Config, for https
-  double timeout_s = 2.0;     // for a request
+  std::string url;   // address of the device service, without user and password
+  std::string user;  // empty for no login
+  // file whose first line is the password; it is read at each connection
+  std::string password_file;
+  std::string profile;     // token of the camera's profile to use; if empty, the first one with PTZ
+  std::string pinned_key;  // for https; see HttpLink::Config
+  double timeout_s = 2.0;  // for one request with its answer
   mount::DriveConfig drive;
 };
 

@@ -1,4 +1,4 @@
-// ONVIF cameras with pan and tilt as a kind of mount.
+// The mount kind for ONVIF cameras with pan and tilt (mount_kind.h).
 #pragma once
 
 #include <memory>

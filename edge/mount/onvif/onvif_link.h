@@ -1,5 +1,5 @@
-// The services of one ONVIF camera: logs in with the method that the camera wants, and reads what
-// the camera can do.
+// The connection to one ONVIF camera: logs in by the method that the camera requires, reads its
+// capabilities, and exchanges requests and answers.
 #pragma once
 
 #include <optional>
@@ -12,24 +12,24 @@
 
 namespace ols::onvif {
 
-// The camera refuses user or password.
+// The camera refuses the user or the password.
 struct LoginRefused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What is learnt about a camera before anything moves.
+// The data of a camera that are read before it is moved.
 struct Learnt {
   std::string device;  // maker and model; empty if the camera does not state them
   Profile profile;
   PtzOptions options;
 };
 
-// What a camera has, for a person who sets a station up.
+// The capabilities of a camera, for a person who sets up a station.
 struct Offer {
   struct Stream {
     Profile profile;
     std::string url;  // rtsp://, without user and password
-    // Empty: its profile does not turn the camera, or the camera does not say how.
+    // nullopt if the profile has no PTZ, or if the camera does not state the options.
     std::optional<PtzOptions> ptz;
   };
   std::string device;  // maker and model
@@ -41,14 +41,15 @@ class OnvifLink {
   // `url`: the address of the device service.
   OnvifLink(const HttpLink::Config& http, std::string url, Credentials credentials);
 
-  // Reads the clock, the addresses and the profile. `profile`: its token; empty for the first one
-  // with PTZ. Throws HttpError, AnswerError or LoginRefused, as all methods do.
+  // Reads the camera's clock, the addresses of its services, and a profile with its options.
+  // `profile`: the profile's token; empty for the first one with PTZ. Throws HttpError, AnswerError
+  // or LoginRefused, as all methods do.
   Learnt learn(const std::string& profile);
 
-  // Reads the same of all profiles, and their streams. Nothing is moved.
+  // Reads all profiles with their options and streams. Does not move the camera.
   Offer offer();
 
-  // When the request left and its answer came, CLOCK_MONOTONIC [s].
+  // An answer, with the times at which the request was sent and answered (CLOCK_MONOTONIC).
   struct Exchange {
     std::string answer;
     double sent_s = 0.0, answered_s = 0.0;
@@ -56,8 +57,7 @@ class OnvifLink {
   Exchange ask_ptz(const Request& request) { return ask(ptz_url_, request); }
 
   HttpLink& http() { return http_; }
-  // How far the camera's clock is ahead of the station's UTC [s]; nullopt if the camera does not
-  // state its time.
+  // The camera's clock minus the station's UTC [s]; nullopt if the camera does not state its time.
   std::optional<double> clock_ahead_s() const { return clock_ahead_s_; }
 
  private:

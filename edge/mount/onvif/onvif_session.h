@@ -1,4 +1,5 @@
-// A connection to an ONVIF camera with pan and tilt. Its reported positions are used unchanged.
+// A session with an ONVIF camera that has pan and tilt. The reported positions are used without a
+// model of the camera's errors.
 #pragma once
 
 #include <mutex>
@@ -13,7 +14,7 @@ namespace ols::onvif {
 class OnvifSession : public mount::MountSession {
  public:
   explicit OnvifSession(OnvifConfig config) : config_(std::move(config)) {}
-  // At the end it orders a stop, and waits at most timeout_s for the answer.
+  // Before it returns, it orders a stop and waits at most timeout_s for the answer.
   void run(mount::SharedDrive& shared, device::DeviceThread& thread,
            const std::stop_token& stop) override;
   void interrupt() override;
@@ -26,7 +27,7 @@ class OnvifSession : public mount::MountSession {
   void publish(OnvifLink* open);
 
   const OnvifConfig config_;
-  std::mutex mutex_;  // of the link
+  std::mutex mutex_;  // guards link_
   OnvifLink* link_ = nullptr;
 };
 

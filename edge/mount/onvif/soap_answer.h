@@ -1,7 +1,7 @@
 // Parses the answers of an ONVIF camera. Pure. Elements are found by their local names, because
-// cameras differ in their prefixes and some do not declare them. Only the five entities of XML are
-// expanded; document types are ignored. If a value is missing, not a finite number, or absurdly
-// large, an AnswerError names it.
+// cameras use different prefixes, and some cameras do not declare their prefixes. Only the five
+// predefined entities of XML are expanded; document types are ignored. If a value is missing, not a
+// finite number, or absurdly large, an AnswerError with its name is thrown.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,12 @@
 
 namespace ols::onvif {
 
-// For example "GetStatus: no Position".
+// Its text is, for example, "GetStatus: no Position".
 struct AnswerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// Thrown if the camera refuses a request; contains the camera's reason on one line.
+// Thrown if the camera refuses a request; its text contains the camera's reason in one line.
+// not_authorized: the camera requires a login, or has refused it.
 struct SoapFault : AnswerError {
   SoapFault(const std::string& words, bool refuses_login)
       : AnswerError(words), not_authorized(refuses_login) {}
@@ -28,19 +29,20 @@ struct SoapFault : AnswerError {
 using mount::Space;
 using mount::Span;
 
-// The camera may offer several coordinate spaces for a move. Only the first of each kind is used:
-// it is the camera's default.
+// The moves that a camera offers. A camera may offer several coordinate spaces for a move; only the
+// first one is used, because it is the camera's default.
 struct PtzOptions : mount::Moves {
   std::optional<Space> relative;
-  std::optional<Span> zoom;     // of absolute moves
-  std::optional<Span> timeout;  // [s] of continuous moves
+  std::optional<Span> zoom;     // range of absolute zoom positions
+  std::optional<Span> timeout;  // [s] range of time-outs of continuous moves
 };
 
 struct Profile {
-  std::string token, configuration;  // `configuration`: token of its PTZ part; empty: none
-  std::string node;                  // token of that part's node; empty: not stated
-  std::string encoding;              // of its video, such as "H264"; empty: not stated
-  // Size and rate of its pictures; 0: not stated.
+  // `configuration`: token of the profile's PTZ configuration; empty if it has none
+  std::string token, configuration;
+  std::string node;      // token of the PTZ configuration's node; empty if not stated
+  std::string encoding;  // encoding of the video, such as "H264"; empty if not stated
+  // Size and rate of the video's pictures; 0 if not stated.
   int width_px = 0, height_px = 0;
   double frame_rate_hz = 0.0;
 };
@@ -54,14 +56,15 @@ struct PtzStatus : mount::Vector {
   std::optional<bool> moving;  // whether pan or tilt moves
 };
 
-// UTC since 1970 by the camera's clock, to the second; nullopt if the camera does not state it.
+// Time of the camera's clock: UTC since 1970 in whole seconds; nullopt if the camera does not state
+// it.
 std::optional<std::int64_t> date_and_time(const std::string& answer);
 std::string device_information(const std::string& answer);  // maker and model
 Services services(const std::string& answer);
 std::vector<Profile> profiles(const std::string& answer);
 std::string stream_uri(const std::string& answer);
 PtzOptions options(const std::string& answer);
-// The same of a node, which states no time-outs.
+// The options in the answer to a request for a node, which contains no time-outs.
 PtzOptions node_options(const std::string& answer);
 PtzStatus status(const std::string& answer);
 // Checks the answer to a request that returns no data, such as "Stop".

@@ -1,5 +1,5 @@
-// The requests to an ONVIF camera, as SOAP 1.2 texts. Pure. Source: ONVIF Core, Media and PTZ
-// Service Specifications; OASIS WS-Security UsernameToken Profile 1.0.
+// Makes the requests to an ONVIF camera, as SOAP 1.2 texts. Pure. Sources: ONVIF Core, Media and
+// PTZ Service Specifications; OASIS WS-Security UsernameToken Profile 1.0.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Request {
   std::string name() const { return action.substr(action.rfind('/') + 1); }
 };
 
-// The login for a camera; never written into a log.
+// The login for a camera. Must never be written into a log.
 struct Credentials {
   std::string user, password;
 };
@@ -29,16 +29,16 @@ Request get_capabilities();
 Request get_profiles();
 Request get_stream_uri(const std::string& profile);
 Request get_options(const std::string& configuration);
-// The PTZ node, by the token that the configuration names.
+// Asks for a PTZ node. `node`: the token that the PTZ configuration states (Profile::node).
 Request get_node(const std::string& node);
 Request get_status(const std::string& profile);
 Request stop(const std::string& profile);
-// `timeout_s`: the camera must stop by itself after this time.
+// `timeout_s`: the camera must stop by itself after this time unless the move is ordered again.
 Request continuous_move(const std::string& profile, const Vector& velocity, double timeout_s);
 Request absolute_move(const std::string& profile, const Vector& position);
 
-// A login for one request. `nonce`: bytes that were never used before. `created_utc_s`: the present
-// time by the camera's clock.
+// A login for one request (UsernameToken). `nonce`: bytes that were never used before.
+// `created_utc_s`: the present time by the camera's clock.
 struct Token {
   Credentials credentials;
   std::string nonce;

@@ -1,4 +1,4 @@
-// The language of a pan-tilt head on a serial line. Pure.
+// The interface of the protocols of pan-tilt heads on serial lines. Pure.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,18 @@ class LineProtocol {
   LineProtocol(const LineProtocol&) = delete;
   LineProtocol& operator=(const LineProtocol&) = delete;
 
-  // The questions for the position. Each is sent after the previous one was answered.
+  // The requests for the head's position. Each is sent after the previous one was answered.
   virtual std::vector<std::string> questions() const = 0;
   virtual std::string stop() const = 0;
-  // Shares of the greatest speeds, -1..1; positive: left, up.
+  // Orders a motion. `pan`, `tilt`: shares of the maximum speeds, -1 to 1; positive is left and up.
   virtual std::string velocity(double pan, double tilt) const = 0;
   // Orders a move to a position in the head's units.
   virtual std::string place(double pan, double tilt) const = 0;
 
-  // Takes received bytes, in any pieces. Bytes that form no message are counted.
+  // Takes received bytes, split in any way. Bytes that form no message are counted (garbled()).
   virtual void receive(std::string_view bytes) = 0;
-  // In the head's units; empty until an answer has arrived after restart().
+  // The newest position in the head's units. Each axis is nullopt until an answer has arrived after
+  // restart().
   struct Position {
     std::optional<double> pan, tilt;
   };

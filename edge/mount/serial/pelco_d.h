@@ -1,6 +1,7 @@
-// Pelco-D. A message has seven bytes: FF, address, two of commands, two of data, and the sum of all
-// but FF. Positions are degrees, 0 to 360, in hundredths. The extended commands 51 and 53 ask for
-// them, 59 and 5B answer, 4B and 4D set them. Source: Pelco, "D" Protocol Manual, revision 5.
+// The protocol Pelco-D. A message has seven bytes: FF, the address, two bytes of command, two bytes
+// of data, and the sum of all bytes but FF. Positions are integers in hundredths of a degree, 0 to
+// 360 degrees. The extended commands 51 and 53 ask for pan and tilt, 59 and 5B are the answers, and
+// 4B and 4D order a position. Source: Pelco, "D" Protocol Manual, revision 5.
 #pragma once
 
 #include <string>

@@ -13,12 +13,12 @@ struct SerialConfig {
 
   std::string device;
   int baud = 9600;
-  int address = 1;         // Pelco-D
-  double timeout_s = 0.3;  // of an answer
+  int address = 1;         // of the head; for Pelco-D only
+  double timeout_s = 0.3;  // longest wait for an answer
   mount::DriveConfig drive;
 };
 
 enum class Language { kPelcoD, kVisca };
-config::Section serial_section(SerialConfig& config, Language language);  // of [mount]
+config::Section serial_section(SerialConfig& config, Language language);  // the section [mount]
 
 }  // namespace ols::serial_mount

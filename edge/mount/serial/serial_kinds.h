@@ -1,4 +1,4 @@
-// Pan-tilt heads on a serial line as kinds of mount.
+// The mount kinds for pan-tilt heads on serial lines (mount_kind.h), one for each protocol.
 #pragma once
 
 #include <memory>

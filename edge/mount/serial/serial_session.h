@@ -1,5 +1,5 @@
-// A connection to a pan-tilt head on a serial line. The head keeps its last velocity when its line
-// is dead. A station that was killed therefore stops the head at its next start.
+// A session with a pan-tilt head on a serial line. Such a head continues at its last velocity when
+// no more orders come. If a station was killed, it stops the head at its next start.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// Pan and tilt by Sony's VISCA (its packets: edge/lens/visca.h). 06 01 drives, 06 02 goes to a
-// position, 09 06 12 asks for the position. Positions are signed counts of the camera; positive is
-// to the right and up. Source: Sony, EVI-D100 Command List.
+// Pan and tilt by Sony's protocol VISCA (edge/lens/visca.h describes the packets). Command 06 01
+// orders a velocity, 06 02 orders a position, and 09 06 12 asks for the position. Positions are
+// signed counts of the camera; right and up are positive. Source: Sony, EVI-D100 Command List.
 #pragma once
 
 #include <string>
