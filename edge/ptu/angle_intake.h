@@ -1,5 +1,5 @@
-// Converts plausible positions reported by a unit to angle samples, and provides its current
-// angles. Pure.
+// Converts the positions that a unit reports to angle samples, if they are plausible. States the
+// unit's present angles and rates. Pure.
 #pragma once
 
 #include <optional>
@@ -18,21 +18,21 @@ class AngleIntake {
  public:
   AngleIntake(const PtuConfig& config, const PtuFacts& facts);
 
-  // Notes that commands were sent that change the unit's speed by this amount [rad/s].
+  // Notes that commands were sent which change the unit's speed by `change_rad_s`.
   void commanded(const PanTilt& change_rad_s);
-  // Takes the positions of a complete cycle. `change_rad_s`: the change of speed that the cycle's
-  // commands cause; the unit may not have executed them yet.
+  // Takes the positions of a complete poll cycle. `change_rad_s`: the change of speed by the
+  // commands of this cycle, which the unit may not have executed yet.
   PositionCheck::Verdict take(const PollCycle& done, const PanTilt& change_rad_s, double time_s);
 
-  // The angles at this time or, if no sample covers it, the newest ones; nullopt before the first
-  // sample.
+  // The angles at `time_s` or, if the samples do not cover it, the newest angles; nullopt before
+  // the first sample.
   std::optional<PanTilt> angles_at(double time_s) const;
-  std::optional<double> newest_s() const;  // instant of the newest sample
+  std::optional<double> newest_s() const;  // time of the newest sample
   PanTilt rate_rad_s() const { return check_.rate_rad_s(); }
   bool standing() const { return check_.standing(); }
 
   std::vector<mount::AngleSample> take_samples() { return samples_.take(); }
-  // When the last good positions arrived.
+  // The time at which the last accepted positions arrived.
   std::optional<double> last_good_s() const { return last_good_s_; }
 
  private:
@@ -41,7 +41,7 @@ class AngleIntake {
   const double poll_interval_s_, acceleration_max_rad_s2_;
   PositionCheck check_;
   mount::AngleHistory history_;
-  PanTilt change_rad_s_;  // commanded changes since the last sample
+  PanTilt change_rad_s_;  // largest commanded change of speed since the last sample
   device::ReadingQueue<mount::AngleSample> samples_;
   std::optional<double> last_good_s_;
 };

@@ -1,6 +1,6 @@
-// Computes how long a poll takes on a serial line at a baud rate. Pure.
+// Computes the duration of a poll cycle on a serial line. Pure.
 //
-// One cycle in motion, in which both positions are requested twice (edge/ptu/poll_cycle.h):
+// A cycle in motion requests each position twice (edge/ptu/poll_cycle.h):
 //
 //    PP PS18700 TS18700 TP PP-49467 TP TP-14622 PP        out, 49 bytes
 //   * -49467  *  *  * -14622  *  * -14622  *  * -49467    in, 50 bytes; the last two positions, 20
@@ -12,17 +12,17 @@
 //   38400     20 ms                                      14 ms
 //   115200    8 ms                                       6 ms
 //
-// Only one request is under way at a time, so that replies can be matched to it and the instant of
-// a position is known. The period is poll_interval_s or the time on the line, whichever is longer.
-// Only commands that changed are sent. A period of 25 ms needs 38400 baud. If each position were
-// read once, 9600 baud would allow 21 cycles a second instead of 13, but a wrong digit would go
-// unnoticed.
+// There is only one request on the line at a time. Replies can then be matched to queries, and the
+// instant of a position is known. The period is poll_interval_s or the duration of the cycle,
+// whichever is longer. Only commands that differ from the last ones are sent. A period of 25 ms
+// needs 38400 baud. If each position were read only once, 9600 baud would allow 21 cycles a second
+// instead of 13, but a wrong digit would not be noticed.
 #pragma once
 
 namespace ols::ptu {
 
 double byte_time_s(int baud);      // one start bit, eight bits, one stop bit
 double longest_cycle_s(int baud);  // cycle in motion
-double resting_cycle_s(int baud);  // cycle with nothing to command
+double resting_cycle_s(int baud);  // cycle without commands
 
 }  // namespace ols::ptu

@@ -8,9 +8,9 @@
 namespace ols::ptu {
 
 enum class PtuDoubtCause { kPowerCycle, kLimitHit, kHomingInterrupted, kBeforeStart };
-// The alarm: what is wrong, and what to do about it.
+// The alarm for this reason: what is wrong, and what to do about it.
 Alarm alarm_of(PtuDoubtCause cause);
-// The reason as text, as in the alarm.
+// The same reason as text, with the alarm's words.
 std::string describe(PtuDoubtCause cause);
 
 }  // namespace ols::ptu

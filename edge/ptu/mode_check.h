@@ -1,6 +1,6 @@
-// If a ready unit begins to echo or to reply verbosely, this class switches that off without a
-// restart. Such a unit may have lost power, and may now be in velocity mode or have other ramps. It
-// therefore gets no motion command until its answers show that mode and ramps are right. Pure.
+// Switches echo and verbose replies off if a ready unit begins to use them, without a new start
+// sequence. The unit may have lost power: it may be in velocity mode, or have other accelerations.
+// It therefore gets no motion command until its answers show the right mode and acceleration. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace ols::ptu {
 
 class ModeCheck {
  public:
-  // `pan_acceleration`: the acceleration of pan [counts/s^2] that the unit stated at its start.
+  // `pan_acceleration` [counts/s^2]: as the unit stated it in the start sequence.
   explicit ModeCheck(std::int32_t pan_acceleration) : pan_acceleration_(pan_acceleration) {}
 
   bool needed() const { return needed_; }
-  // To be included in the next cycle while a check is needed.
+  // The commands and questions to include in the next poll cycle while a check is needed.
   static PtuRequest commands();
   static PtuRequest questions();
 
@@ -23,16 +23,16 @@ class ModeCheck {
   void begin_cycle() { checking_ = needed_; }
   enum class Result {
     kUnchanged,
-    kForgotten,      // the unit has begun to echo or to be verbose
-    kRestored,       // mode and ramps are as they were before
-    kUnitRestarted,  // several checks have failed, so the unit must be started again
+    kForgotten,      // the unit has begun to echo or to reply verbosely
+    kRestored,       // mode and acceleration are right again
+    kUnitRestarted,  // five checks have failed; the unit must be started again
   };
   Result take(const PollCycle& done);
 
  private:
   std::int32_t pan_acceleration_;
   bool needed_ = false;
-  bool checking_ = false;  // a check is part of the cycle that is under way
+  bool checking_ = false;  // the current cycle contains a check
   int failed_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Turns goals into the commands of a cycle: the servo's output in counts (if it has changed), and
-// halts. Pure.
+// Converts goals to the commands of a poll cycle: the servo's positions and speeds in counts, as
+// far as they have changed, or a halt. Pure.
 #pragma once
 
 #include <optional>
@@ -11,33 +11,35 @@
 
 namespace ols::ptu {
 
-// Says which axis has no position within both the configured limits and the unit's own, and why;
-// empty if both axes have one.
+// Names the axis for which the configured limits and the unit's own have no position in common,
+// with the limits; empty if there is no such axis.
 std::string limits_conflict(const mount::Limits& configured, const PtuFacts& facts);
 
 class MotionCommands {
  public:
-  // Uses the narrower bounds of the configuration and the unit. Call it only if there is no
+  // Uses the narrower ones of the configured limits and the unit's own. There must be no
   // limits_conflict().
   MotionCommands(const PtuConfig& config, const PtuFacts& facts);
 
-  // The unit's angles and rates, as far as known.
+  // The unit's present state, as far as it is known.
   struct Now {
     PanTilt angles;
     PanTilt rate_rad_s;
-    bool standing = false;  // the unit was seen to stand still
+    bool standing = false;  // the reported positions do not change
   };
 
-  // The commands to send at `time_s`.
+  // The commands for a cycle at `time_s`; may be empty.
   PtuRequest next(const std::optional<mount::Goal>& goal, const Now& now, double time_s);
-  // Commands that halt the unit; they are repeated until it stands still.
+  // Commands that halt the unit. halt() is empty after a halt was sent, and repeats it if the unit
+  // still moves after its braking time. halt_again() always contains the halt.
   PtuRequest halt(const Now& now, double time_s);
   PtuRequest halt_again(const Now& now, double time_s);
 
-  // Call if the unit may not have received the last commands.
+  // Call if the unit may not have received the last commands. The next cycle then contains all
+  // commands again.
   void send_all_again();
 
-  // The change of the axes' speeds that the last commands cause.
+  // The change of the axes' speeds by the last commands.
   const PanTilt& speed_change_rad_s() const { return change_; }
 
   const mount::Limits& limits() const { return limits_; }
@@ -47,8 +49,8 @@ class MotionCommands {
   struct Axis {
     PtuAxis name;
     PtuAxisFacts facts;
-    std::int32_t min, max;                                  // within limits_ [counts]
-    std::optional<std::int32_t> position = {}, speed = {};  // as last sent
+    std::int32_t min, max;                                  // the range limits_ in counts
+    std::optional<std::int32_t> position = {}, speed = {};  // values last sent
   };
   static Axis axis(PtuAxis name, const PtuAxisFacts& facts, double min_rad, double max_rad);
   static void add_speed(Axis& axis, double speed_rad_s, PtuRequest& request);
@@ -62,8 +64,8 @@ class MotionCommands {
   std::optional<PtuLoweredSpeed> lowered_;
   mount::Limits limits_;
   Axis pan_, tilt_;
-  double braking_s_ = 0.0;    // time for braking from full speed
-  double refreshed_s_ = 0.0;  // time at which everything was last sent
+  double braking_s_ = 0.0;    // time that braking from the maximum speed takes
+  double refreshed_s_ = 0.0;  // time at which all values were last sent
   std::optional<double> halted_s_;
   PanTilt change_;
 };

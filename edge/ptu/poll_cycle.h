@@ -1,14 +1,14 @@
-// One poll of a ready unit: sends its queries, counts missing replies, and dates the positions that
-// the unit read. Pure.
+// One poll cycle of a ready unit: the bytes to send, the assignment of replies to commands, and the
+// times at which the unit read its positions. Pure.
 //
-// Replies have no checksum, so each position is requested twice in a cycle:
+// Replies have no checksum. Each position is therefore requested twice in a cycle:
 //
 //   PP <commands> TP <commands> TP <commands> PP <questions>
 //
-// A wrong digit then shows as a contradiction. If a reply is lost, the later ones are taken for the
-// wrong queries; in this order, such replies cannot confirm each other. The commands are placed
-// between the queries: their short replies leave the line free for the next position, so that its
-// instant is known well.
+// A wrong digit then causes a contradiction. If a reply is lost, the later replies are assigned to
+// the wrong queries; in the order above, wrongly assigned replies cannot confirm each other. The
+// commands are placed between the queries, because their short replies leave the line free for the
+// reply with the next position. The time of this position is then known more accurately.
 #pragma once
 
 #include <array>
@@ -20,38 +20,38 @@
 
 namespace ols::ptu {
 
-using PtuReadings = std::array<PtuReading, 2>;  // those of one axis, in order of time
+using PtuReadings = std::array<PtuReading, 2>;  // the two readings of one axis, in order of time
 
 class PollCycle {
  public:
-  // `commands` are answered without a value, `questions` with text. `usual_latency_s`: an average
-  // of latency_s().
+  // `commands`: the unit answers these without a value. `questions`: it answers these with text.
+  // `usual_latency_s`: an average of latency_s() of earlier cycles.
   PollCycle(const PtuRequest& commands, const PtuRequest& questions, double sent_s, double byte_s,
             double usual_latency_s);
 
   const std::string& bytes() const { return request_.bytes(); }
-  // The instant at which the last byte of the request is on the line.
+  // The time at which the last byte of the request has been sent.
   double sent_out_s() const;
-  // The instant by which all replies will have arrived, if the unit takes no longer than `slack_s`
-  // for them.
+  // The time by which all replies have arrived, if the unit itself needs at most `slack_s`.
   double due_s(double slack_s) const;
 
-  // `late_s`: the longest time for which the reply's bytes may have waited before they were read.
+  // Takes the next reply. `late_s`: the longest time for which its bytes may have waited before
+  // they were read.
   void take(const PtuReply& reply, double late_s);
   bool complete() const { return taken_ == slots_.size(); }
 
-  // Whether the reply to a position query is missing or unusable; then the cycle gives no
+  // Whether the reply to a position query is missing or unusable. The cycle then gives no
   // positions.
   bool spoilt() const { return spoilt_; }
-  // Whether the reply to a command is missing; then the unit may not have accepted the command.
+  // Whether the reply to a command is missing. The unit may then not have executed the command.
   bool command_lost() const { return command_lost_; }
-  // Texts of `! text` replies.
+  // The texts of `! text` replies to commands.
   const std::vector<std::string>& refusals() const { return refusals_; }
-  // Whether echo or verbose replies are on, so that the unit must have forgotten its modes.
+  // Whether echo or verbose replies are on: the unit has forgotten its modes.
   bool modes_forgotten() const { return modes_forgotten_; }
 
-  // The time from the end of the first query to the start of its reply. No other reply can delay
-  // this one.
+  // The time from the end of the first query to the start of its reply. This reply is not delayed
+  // by other replies.
   double latency_s() const { return latency_s_; }
 
   const PtuReadings& pan() const { return pan_.readings; }

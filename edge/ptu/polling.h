@@ -1,5 +1,5 @@
-// The exchange of requests and replies with a ready unit. One poll cycle is under way at a time.
-// The next cycle is sent when it is due and the line is quiet. Pure.
+// Exchanges requests and replies with a ready unit, one poll cycle at a time. The next cycle is
+// sent when it is due and the line is quiet. Pure.
 #pragma once
 
 #include <optional>
@@ -21,19 +21,18 @@ class Polling {
 
   void bytes_came(double time_s) { last_byte_s_ = time_s; }
   void line_was_garbled() { garbled_ = true; }
-  // Whether no bytes have come for this long.
+  // Whether no bytes have come for `duration_s`.
   bool silent_for(double duration_s, double time_s) const;
 
-  // Takes a reply that belongs to the cycle under way. Returns the cycle once it is complete and
-  // usable.
+  // Takes a reply of the current cycle. Returns the cycle when it is complete and usable.
   std::optional<PollCycle> take(const PtuReply& reply, double late_s);
-  // Takes a reply while no cycle is under way; the next cycle then waits for a quiet line.
+  // Notes a reply that came between two cycles. The next cycle then waits until the line is quiet.
   void unexpected_reply();
 
   enum class Failure { kGarbled, kRepliesMissing };
-  // Abandons a cycle that can no longer be completed.
+  // Abandons the current cycle if it can no longer be completed, and returns the reason.
   std::optional<Failure> watch(double time_s);
-  // Abandons the cycle under way because other bytes were written.
+  // Abandons the current cycle, because other bytes were written.
   void abandon(double time_s);
 
  private:
@@ -41,10 +40,10 @@ class Polling {
 
   const double interval_s_, byte_s_;
   std::optional<PollCycle> cycle_;
-  bool garbled_ = false;    // the line was garbled in the cycle that is under way
+  bool garbled_ = false;    // a line was garbled in the current cycle
   double latency_s_ = 0.0;  // running average of PollCycle::latency_s()
   double next_s_;
-  double quiet_s_ = 0.0;  // required silence before the next cycle
+  double quiet_s_ = 0.0;  // silence that is required before the next cycle
   double last_byte_s_;
 };
 

@@ -1,10 +1,10 @@
-// Checks reported positions. Replies have no checksum, so a wrong digit gives a plausible number.
-// Pure.
+// Checks reported positions. Replies have no checksum, so that a position with a wrong digit may
+// look plausible. Pure.
 //
-// Each position is read twice in a cycle. The two readings must differ by the motion between their
-// instants; an impossible pair is rejected. The readings of an accepted pair are averaged. The
-// standard deviation of the average grows with the difference between the two, to cover an
-// undetected error.
+// Each position is read twice in a poll cycle. The two readings may differ only by the motion
+// between their instants; an impossible pair is rejected. The readings of an accepted pair are
+// averaged. If the two differ by more than noise explains, the standard deviation of the average is
+// increased, to cover an undetected error.
 #pragma once
 
 #include <optional>
@@ -17,28 +17,30 @@ namespace ols::ptu {
 
 class PositionCheck {
  public:
-  // The first reading of pan is the first in the cycle, so nothing delays it. The errors of the two
-  // instants of tilt are correlated, because the same work of the unit precedes both.
+  // The numbers 0 and 0.5 are the correlations of the errors of an axis's two instants. Pan: no
+  // correlation, because nothing delays its first reading, which is the first of the cycle. Tilt:
+  // the same work of the unit delays both readings.
   explicit PositionCheck(const PtuFacts& facts) : pan_{facts.pan, 0.0}, tilt_{facts.tilt, 0.5} {}
 
   enum class Verdict {
-    kFirst,     // there is nothing to compare it with yet
-    kBelieved,  // accepted; sample() returns it
+    kFirst,     // no earlier pair to compare with
+    kBelieved,  // accepted; sample() returns the result
     kRefused,
-    kLate,  // the replies were read too late to be dated, because this host was busy
+    kLate,  // the computer was busy and read the replies so late that their times are not known
   };
-  // `commanded_rad_s2`: approximate acceleration that was commanded.
+  // Takes the readings of a cycle. `commanded_rad_s2`: approximate commanded acceleration.
   Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& commanded_rad_s2);
   const mount::AngleSample& sample() const { return sample_; }
 
-  // The rate over the last two accepted pairs; 0 if it is not known.
+  // The rate from the last accepted pair to the one before; 0 if there is none, or if they are 0.3
+  // s or more apart.
   PanTilt rate_rad_s() const;
-  // Whether both axes were seen to stand still.
+  // Whether the positions of both axes do not change.
   bool standing() const;
 
  private:
   struct Merged {
-    // Time of the mean; half of the interval that contains its instant.
+    // time_s: time of the mean. half_s: largest error of time_s.
     double time_s = 0.0, half_s = 0.0;
     double time_sd_s = 0.0;
     double counts = 0.0;
@@ -47,11 +49,11 @@ class PositionCheck {
   };
   struct Axis {
     PtuAxisFacts facts;
-    double correlation;  // between the errors of both instants
+    double correlation;  // of the errors of the two instants
     std::optional<Merged> last = {};
     double rate_counts_s = 0.0;
     bool rate_known = false;
-    double gap_s = 0.0;  // time over which the rate was measured
+    double gap_s = 0.0;  // time interval over which the rate was measured
   };
   static Merged middle(const PtuReadings& readings);
   static bool reachable(const Axis& axis, const Merged& now);

@@ -1,4 +1,4 @@
-// The configuration of a FLIR unit.
+// The configuration section of a FLIR unit as mount.
 #pragma once
 
 #include "edge/ptu/driver.h"

@@ -1,5 +1,6 @@
-// A FLIR unit as a mount: connects the control loop to the owner of the line (PtuThread, on a
-// serial line). It holds the driver. All times are CLOCK_MONOTONIC in seconds.
+// A FLIR unit as a mount. Connects the control loop to the owner of the unit's serial line; the
+// owner is a derived class such as PtuThread. Contains the driver. All times are CLOCK_MONOTONIC
+// [s].
 #pragma once
 
 #include <atomic>
@@ -24,12 +25,12 @@ class PtuHandover : public mount::Mount {
   std::vector<mount::AngleSample> take_samples() override;
   std::optional<mount::Limits> limits() const override;
 
-  // Discards the output queue and sends H first. Halts are repeated until the unit was seen to
-  // stand still.
+  // The bytes in the output queue are discarded, and a halt is sent first. Halts are repeated until
+  // the reported positions no longer change.
   void emergency_halt() override;
   void clear_emergency() override;
 
-  // As in PtuDriver:
+  // The functions from here to doubt_to_persist() work as those of PtuDriver.
   mount::Reference reference() const override;
   void home() override;
   void stop_homing() override;
@@ -42,7 +43,7 @@ class PtuHandover : public mount::Mount {
   PtuStatus status() const;
   device::DeviceReport report() const override;
 
-  // The functions below are for the owner of the line. A turn takes the bytes that have arrived. It
+  // The functions below are for the owner of the line. turn() takes the bytes that have arrived. It
   // returns the bytes to send, the baud rate for them, and whether the line must be reopened.
   struct Turn {
     std::string request;
@@ -50,20 +51,20 @@ class PtuHandover : public mount::Mount {
     bool link_lost = false;
   };
   Turn turn(const std::string& arrived);
-  // The halt that must be sent before anything else; nullopt if no emergency has begun since the
+  // The halt that must be sent before all other bytes; nullopt if no emergency has begun since the
   // last call.
   std::optional<std::string> take_halt();
   int line_baud() const;
-  // Notes that the line was lost; the unit may be another one now.
+  // Notes that the line was lost. The unit is started again, because it may be another one.
   void restart();
 
  private:
   virtual device::DeviceThread::Link link() const = 0;
-  virtual void wake() {}  // called in an emergency, when there is something to send
+  virtual void wake() {}  // called in an emergency, because a halt must be sent
 
   const PtuConfig config_;
   std::atomic<bool> emergency_ = false;
-  std::atomic<bool> halt_wanted_ = false;  // a halt is not on the line yet
+  std::atomic<bool> halt_wanted_ = false;  // a halt must still be sent
   mutable std::mutex mutex_;               // guards everything below
   PtuDriver driver_;
   std::uint64_t reopens_ = 0;

@@ -1,4 +1,4 @@
-// FLIR's units as a kind of mount.
+// The mount kind for FLIR's pan-tilt units (edge/mount/mount_kind.h).
 #pragma once
 
 #include <memory>

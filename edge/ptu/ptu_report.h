@@ -1,4 +1,4 @@
-// Makes a device report from a PTU's state. Pure.
+// Makes the device report of a PTU from its state. Pure.
 #pragma once
 
 #include "edge/device/device_report.h"

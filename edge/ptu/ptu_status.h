@@ -13,24 +13,26 @@ struct PtuStatus {
   PtuState state = PtuState::kStarting;
   struct Port {
     bool open = false;
-    // Number of failed attempts to open it, and of ports that vanished; only increases.
+    // Number of failed attempts to open the port, plus number of times that the port vanished; only
+    // increases.
     std::uint64_t failures = 0;
-    // Number of times that it was reopened because the unit did not answer; only increases.
+    // Number of times that the port was reopened because the unit did not answer; only increases.
     std::uint64_t reopens = 0;
   } port;
-  bool emergency = false;       // if true, nothing moves before clear_emergency()
-  bool standing = false;        // the unit was seen to stand still
+  bool emergency = false;       // true: the unit must not move before clear_emergency()
+  bool standing = false;        // the reported positions do not change
   bool not_referenced = false;  // the unit must be homed
   bool homing = false;
   std::optional<PtuDoubtCause> doubt;
   std::optional<PtuLoweredSpeed> lowered_speed;
   int line_baud = 0;
-  std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last angle sample
+  // CLOCK_MONOTONIC at the arrival of the last accepted positions
+  std::optional<double> last_good_s;
   std::optional<PtuEnvironment> environment;
   PtuCounters counters;
-  mount::Limits limits;    // meaningful only once ready
+  mount::Limits limits;    // as configured until the unit is ready, then as in PtuDriver::limits()
   std::string firmware;    // the unit's answer to V; empty until ready
-  std::string last_error;  // error of the port or of the unit; empty if there was none
+  std::string last_error;  // last error of the port or of the unit; empty if there was none
 };
 
 }  // namespace ols::ptu

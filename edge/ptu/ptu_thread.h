@@ -1,5 +1,5 @@
-// The thread that owns a PTU's serial port, in real time. It opens the port, moves bytes and steps
-// the driver. If the port vanishes, the thread reopens it with growing pauses.
+// A FLIR unit on a serial port. Its thread opens the port, reads and writes bytes, and calls the
+// driver. If the port vanishes, the thread reopens it, with growing pauses.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace ols::ptu {
 class PtuThread : public PtuHandover {
  public:
   explicit PtuThread(const PtuConfig& config);
-  ~PtuThread() override;  // sends a halt and waits briefly until it is on the line
+  ~PtuThread() override;  // sends a halt and waits a short time until the halt has been sent
 
  private:
   struct Impl;

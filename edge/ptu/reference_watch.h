@@ -1,7 +1,7 @@
-// Watches whether a unit's step counter still matches the position of its head. A unit that lost
-// power counts from the position where it stands. A unit that ran into a limit may have lost steps.
-// In both cases the zero of its angles, limits and keep-out regions is unknown until the unit is
-// homed or an operator confirms the reference. Pure.
+// Watches for events after which a unit's step counter may no longer match the position of its
+// head. A unit that has lost power counts from the position where it stands. A unit that has run
+// into a limit may have lost steps. In both cases, the zero of its angles, limits and keep-out
+// regions is unknown until the unit is homed or an operator confirms the reference. Pure.
 #pragma once
 
 #include <map>
@@ -13,54 +13,61 @@
 
 namespace ols::ptu {
 
-// A homing runs into both ends of both axes and reports them: `!T!T!P!P`. Some of the four reports
-// may be lost on the line, or be sent at another baud rate than the port's. One report from each
-// axis is enough, because a unit that is not driven moves only by homing.
+// In homing, a unit runs into both ends of both axes and reports these limit hits: `!T!T!P!P`. Some
+// of the four reports may be lost, because the line is disturbed or the port has another baud rate.
+// One report from each axis suffices as evidence of a homing, because a unit without orders moves
+// only by homing.
 class ReferenceWatch {
  public:
-  // Takes limit hits of a unit that is driven. `homing`: several came in one reply, as from homing.
+  // Takes limit hits of a unit in service. `homing`: one reply contained several of them, as after
+  // homing.
   void while_driven(const PtuLimitHits& hits, bool homing);
-  // Takes limit hits of a unit that is not driven, read at this baud rate, which may be wrong.
+  // Takes limit hits of a unit that is not in service. They were read at the rate `baud`, which may
+  // be wrong.
   void while_not_driven(const PtuLimitHits& hits, int baud, double time_s);
-  // Notes that the unit answers at this baud rate, so that bytes read at other rates were noise.
+  // Notes that the unit answers at this baud rate. Limit hits that were read at other rates are
+  // then discarded as noise.
   void rate_is(int baud);
-  // Notes that a unit was heard to restart at this baud rate.
+  // Notes that a unit restarts, and that its messages about this came at this baud rate.
   void restarts_at(int baud, double time_s) { heard_[baud].time_s = time_s; }
-  // The baud rate at which a unit is restarting or homing. It will answer at this rate when it has
-  // finished.
+  // The baud rate at which a unit was recently observed to restart or to home; nullopt if none was.
+  // The unit will answer at this rate when it has finished.
   std::optional<int> homes_at(double time_s) const;
 
   void power_cycled();
 
-  // The steps of a homing by the driver. It is decided (homing_decided()); R is sent
-  // (homing_ordered()); the unit reports completion (homing_complete()), or the driver abandons it
-  // (homing_interrupted()). After an abandoned homing, only a complete homing by the driver
-  // restores the reference, because some units carry the abandoned one to its end.
+  // The steps of a homing by the driver. homing_decided(): the driver will home the unit.
+  // homing_ordered(): the driver has sent R. homing_complete(): the unit has reported the end.
+  // homing_interrupted(): the driver has abandoned the homing. Then only a complete homing by the
+  // driver restores the reference. Limit hits alone do not, because some units go on with the
+  // abandoned homing.
   void homing_decided() { homed_since_trusted_ = true; }
   void homing_ordered();
-  bool saw_both_ends() const;  // since homing_ordered()
+  bool saw_both_ends() const;  // whether each axis has reported a limit hit since homing_ordered()
   void homing_complete() { complete_ = true; }
   void homing_interrupted();
 
-  // Restores the doubt that an earlier process saved.
+  // Restores the doubt about the reference that an earlier process has saved.
   void restore(const mount::ReferenceDoubt& doubt) {
     doubt_ = {PtuDoubtCause::kBeforeStart, doubt};
   }
-  // Takes the pan step that the unit states. If it has changed, the unit has lost power.
+  // Takes the angle of a pan step, as the unit states it. If it has changed, the unit has lost
+  // power.
   void step_is(double pan_step_rad);
-  // Notes that the unit is ready. The first time, its reference is trusted, because the installer
-  // has checked it.
+  // Notes that the unit is ready. Limit hits on both axes since the last call are evidence of a
+  // homing and restore the reference; other limit hits put it in doubt. At the first call, a unit
+  // without doubt is trusted, because the installer has checked it.
   void ready();
-  // Makes the reference trusted.
+  // Makes the reference trusted, because an operator has confirmed it.
   void acknowledge();
-  // Sets whether the unit itself reports that it must be homed.
+  // Sets whether the unit itself states that it must be homed.
   void set_missing(bool missing) { missing_ = missing; }
   bool missing() const { return missing_; }
 
   std::optional<PtuDoubtCause> cause() const;
   std::optional<mount::ReferenceDoubt> doubt() const;
-  // True if, since the reference was last trusted, the unit has not been homed and no homing was
-  // interrupted.
+  // True if no homing was decided since the reference was last trusted, and the doubt is not about
+  // an interrupted homing.
   bool may_home_automatically() const;
 
  private:
@@ -75,9 +82,9 @@ class ReferenceWatch {
   Doubt& doubt_for(PtuDoubtCause cause);
 
   std::optional<Doubt> doubt_;
-  std::map<int, Heard> heard_;  // for each baud rate
-  PtuLimitHits ends_;           // hits since ready() or homing_ordered(), at the right baud rate
-  bool complete_ = false;       // a homing by the driver was completed
+  std::map<int, Heard> heard_;  // by baud rate
+  PtuLimitHits ends_;      // limit hits at the right baud rate since ready() or homing_ordered()
+  bool complete_ = false;  // a homing by the driver was completed
   bool was_ready_ = false;
   bool missing_ = false;
   bool homed_since_trusted_ = false;

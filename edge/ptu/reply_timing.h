@@ -1,5 +1,5 @@
-// Estimates when a unit read the counter that it reports. Replies have no time stamp. Only two
-// instants are known: when the query was on the line, and when the reply began. Pure.
+// Estimates the time at which a unit read the counter that it reports. Replies have no time stamp.
+// Only two times are known: the end of the query, and the beginning of the reply. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,21 @@ namespace ols::ptu {
 struct PtuReading {
   std::int32_t counts = 0;
   double time_s = 0.0;     // estimated time at which the unit read its counter
-  double time_sd_s = 0.0;  // 1-sigma of that time
-  double half_s = 0.0;     // largest error of that time
+  double time_sd_s = 0.0;  // 1-sigma of time_s
+  double half_s = 0.0;     // largest error of time_s
 };
 
-// Follows the replies of one cycle, in order. `asked_s`: when the command to which the reply
-// belongs was on the line. `late_s`: the longest time for which the reply's bytes may have waited
+// Processes the replies of one poll cycle, in order. `asked_s`: time at which the command of the
+// reply had been sent. `late_s`: the longest time for which the reply's bytes may have waited
 // before they were read.
 class ReplyTiming {
  public:
-  // `usual_latency_s`: time that the unit usually takes from the end of a query to the start of its
-  // reply.
+  // `usual_latency_s`: the usual time from the end of a query to the start of its reply.
   ReplyTiming(double byte_s, double usual_latency_s)
       : byte_s_(byte_s), usual_latency_s_(usual_latency_s) {}
 
-  // Takes a reply with a position. `first`: it is the first position of the cycle, so that the unit
-  // was idle before.
+  // The reading in a reply with a position. `first`: the reply is the first one of the cycle, so
+  // that the unit was idle before.
   PtuReading read_at(const PtuReply& reply, double asked_s, double late_s, bool first) const;
   double latency_s(const PtuReply& reply, double asked_s) const;
 
@@ -36,14 +35,15 @@ class ReplyTiming {
 
  private:
   double started_s(const PtuReply& reply) const { return reply.began_s - byte_s_; }
-  double begun_s(double asked_s) const;  // estimated time at which the unit began the command
+  // estimated time at which the unit began to execute the command
+  double begun_s(double asked_s) const;
   bool waited(const PtuReply& reply, double late_s) const;
 
   double byte_s_;
   double usual_latency_s_;
   std::optional<double> line_busy_s_;  // time at which the last reply ended
-  double unit_busy_s_ = 0.0;  // the unit was busy with the last command at least until then
-  double unit_free_s_ = 0.0;  // estimated time at which the unit became free
+  double unit_busy_s_ = 0.0;  // the unit executed the previous command at least until this time
+  double unit_free_s_ = 0.0;  // estimated time at which the unit finished the previous command
 };
 
 }  // namespace ols::ptu

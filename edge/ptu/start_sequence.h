@@ -1,7 +1,7 @@
-// The queries and settings that precede any motion of a PTU, one command at a time. Pure.
+// The settings and queries that precede any motion of a PTU, one command at a time. Pure.
 //
-// Replies have no checksum. Values that determine the meaning of a count or the permitted travel
-// are therefore queried until two successive answers agree.
+// Replies have no checksum. Values that determine the angle of a count or the permitted travel are
+// therefore queried until two successive answers agree.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace ols::ptu {
 
-// What a unit states about one of its axes.
+// The values that a unit states about one of its axes.
 struct PtuAxisFacts {
   double resolution_rad = 0.0;                    // per count
   std::int32_t min = 0, max = 0;                  // [counts]
@@ -28,9 +28,9 @@ struct PtuFacts {
 };
 
 struct PtuStartOptions {
-  double acceleration_rad_s2 = 1.0;  // for both axes; a unit that refuses it keeps its own value
-  int change_baud_to = 0;            // 0 leaves it unchanged
-  // Letters of modes; 0 leaves the mode unchanged.
+  double acceleration_rad_s2 = 1.0;  // for both axes; a unit that refuses this value keeps its own
+  int change_baud_to = 0;            // 0 leaves the baud rate unchanged
+  // Letters of the unit's modes; 0 leaves a mode unchanged.
   char step_mode = 0;   // E-series: H, Q, E (half, quarter, eighth step) or A (automatic)
   char hold_power = 0;  // R, L, O: regular, low, off
   char move_power = 0;  // H, R, L: high, regular, low
@@ -39,22 +39,24 @@ struct PtuStartOptions {
 class PtuStartSequence {
  public:
   explicit PtuStartSequence(const PtuStartOptions& options);
-  PtuStartSequence(const PtuStartSequence&) = delete;  // its steps hold references to it
+  PtuStartSequence(const PtuStartSequence&) = delete;  // its steps contain pointers to it
   PtuStartSequence& operator=(const PtuStartSequence&) = delete;
 
   bool done() const { return next_ == steps_.size(); }
   PtuRequest request() const { return steps_.at(next_).request(); }
-  // Setting an acceleration and waiting for the end of a motion take longer.
+  // How long to wait for the answer to request(). It is longer than `normal_s` for setting an
+  // acceleration and for waiting until a motion ends (slow()).
   double timeout_s(double normal_s) const;
   bool slow() const { return steps_.at(next_).slow; }
-  // Whether the answer just processed was the last one at the old baud rate.
+  // Whether the last answer confirmed a change of the baud rate.
   bool changed_baud() const { return changed_baud_; }
 
-  // Takes the answer to request(). Returns false if the unit cannot be driven without it.
+  // Takes the answer to request(). Returns false if it is unusable and the unit cannot be driven
+  // without it.
   bool take(const PtuReply& reply);
-  // Why the unit cannot be driven, after take() returned false for `reply`.
+  // Why the unit cannot be driven, after take() has returned false for `reply`.
   std::string refusal(const PtuReply& reply) const;
-  // Whether that is because the unit has no reference and must be homed.
+  // Whether the unit cannot be driven because it has no reference and must be homed.
   bool not_referenced() const { return not_referenced_; }
 
   const PtuFacts& facts() const { return facts_; }
@@ -64,9 +66,9 @@ class PtuStartSequence {
     std::function<PtuRequest()> request;
     std::function<bool(const PtuReply&)> take;
     bool slow = false;
-    bool twice = false;         // ask until two answers agree
-    std::string without = {};   // what is impossible without a usable reply
-    bool changes_baud = false;  // changes the baud rate when it is accepted
+    bool twice = false;         // repeat the query until two successive answers agree
+    std::string without = {};   // what is wrong without a usable reply, in words
+    bool changes_baud = false;  // the baud rate changes when the unit accepts the command
   };
   void add(std::string_view command, bool slow = false);
   void require(std::string_view command, std::function<bool(const PtuReply&)> take,
@@ -82,12 +84,13 @@ class PtuStartSequence {
   PtuFacts facts_;
   std::vector<Step> steps_;
   std::size_t next_ = 0;
-  std::string previous_;  // previous answer to the same question
-  int asked_ = 0;         // how often the question was asked
+  std::string previous_;  // previous answer to the same query
+  int asked_ = 0;         // number of answers to the same query
   bool changed_baud_ = false, not_referenced_ = false;
 };
 
-// Whether the unit's answer to C means that speeds are limits of position moves.
+// Whether the unit's answer to C states the independent mode: speeds are then limits of moves to
+// positions, not velocities.
 bool says_independent(const PtuReply& reply);
 
 }  // namespace ols::ptu

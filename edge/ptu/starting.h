@@ -1,5 +1,5 @@
-// The phase of PtuDriver in which a unit is started. Waits until the line is quiet, then sends the
-// start sequence, one command at a time. Pure.
+// The phase of PtuDriver that starts a unit. Waits until the line is quiet, then sends the start
+// sequence, one command at a time. Pure.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace ols::ptu {
 
 class PtuStarting {
  public:
-  // What follows when the unit has answered everything.
+  // What follows the start sequence.
   enum class Purpose { kDrive, kHome, kDriveAfterHoming };
 
   // `counters` must outlive this object.
@@ -21,27 +21,29 @@ class PtuStarting {
 
   enum class Event {
     kNone,
-    kLineDropped,   // the line is quiet, or must become quiet; the caller drops an incomplete reply
-    kLineNotQuiet,  // the line carries bytes for longer than a PTU would send
+    // the caller must drop an incomplete reply: the line has become quiet, or a reply is missing
+    kLineDropped,
+    kLineNotQuiet,  // bytes arrive for longer than a PTU would send
     kNoReply,
-    kComplete,  // the unit has answered everything
+    kComplete,  // the start sequence is complete
   };
   struct Step {
-    std::string bytes;  // to write now
+    std::string bytes;  // bytes to write now
     Event event = Event::kNone;
   };
   Step step(double time_s, double byte_s, bool emergency);
 
-  // Waits until the line is quiet, then repeats the command that was not answered.
+  // Begins a flush: waits until the line is quiet, then sends the pending command again.
   void flush(double time_s);
   bool flushing() const { return flush_.has_value(); }
   void bytes_came(double time_s);
 
   bool waits_for_reply() const { return !flush_ && asked_s_; }
-  // Takes the reply to the pending command. Returns false if the unit cannot be driven; see
-  // refusal().
+  // Takes the reply to the pending command. Returns false if the unit cannot be driven; refusal()
+  // then states the reason.
   bool take(const PtuReply& reply);
-  bool answered() const { return answered_; }  // the unit has answered something at this baud rate
+  // the unit has answered at least one command at this baud rate
+  bool answered() const { return answered_; }
   std::string refusal(const PtuReply& reply) const { return sequence_.refusal(reply); }
   bool not_referenced() const { return sequence_.not_referenced(); }
   bool changed_baud() const { return sequence_.changed_baud(); }
@@ -64,7 +66,7 @@ class PtuStarting {
   Purpose purpose_;
   PtuCounters& counters_;
   std::optional<Flush> flush_;
-  std::optional<double> asked_s_;  // when the pending command was sent
+  std::optional<double> asked_s_;  // time at which the pending command was sent
   bool answered_ = false;
   int retries_ = 0;
 };

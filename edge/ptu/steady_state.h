@@ -1,5 +1,5 @@
-// The phase of PtuDriver in which a unit is ready. Polls its position, moves it to its goal,
-// detects faults, and corrects those that need no restart. Pure.
+// The phase of PtuDriver in which a unit is ready. Polls the unit's position, moves it to its goal,
+// detects faults, and corrects those that need no new start sequence. Pure.
 #pragma once
 
 #include <optional>
@@ -18,36 +18,37 @@ namespace ols::ptu {
 
 class PtuSteadyState {
  public:
-  // There must not be a limits_conflict(). `config` and `counters` must outlive this object.
+  // There must be no limits_conflict(). `config` and `counters` must outlive this object.
   PtuSteadyState(const PtuConfig& config, const PtuFacts& facts, double byte_s, double time_s,
                  PtuCounters& counters);
 
-  // If one reply contains this many limit hits, they come from homing (`!T!T!P!P*`; some may be
-  // lost).
+  // If one reply contains at least this number of limit hits, the unit has homed. A homing causes
+  // four (`!T!T!P!P*`), of which one may be lost.
   static constexpr int kHomingHits = 3;
 
-  // Why the unit can no longer be driven without a restart.
+  // Why the unit must be started again.
   struct Trouble {
     enum class Kind {
       kNoReply,
-      kNotItself,      // it answers, but not as expected
-      kRestarted,      // it has lost power, or has homed
-      kNotReferenced,  // it must be homed
+      kNotItself,      // the unit answers, but not as expected
+      kRestarted,      // the unit has lost power, or has homed
+      kNotReferenced,  // the unit must be homed
     };
     Kind kind;
     std::string reason;
   };
 
-  // Returns the bytes to be written now. Nothing moves in an emergency.
+  // Returns the bytes to write now. In an emergency, they contain no motion command except halts.
   std::string step(bool emergency, double time_s);
-  // Sets the goal from now on; nullopt means halt.
+  // Sets the goal; nullopt means halt.
   void set_goal(const std::optional<mount::Goal>& goal) { goal_ = goal; }
-  // `late_s`: the longest time for which the reply's bytes may have waited before they were read.
+  // Takes a reply. `late_s`: the longest time for which its bytes may have waited before they were
+  // read.
   void take(const PtuReply& reply, double time_s, double late_s);
   void bytes_came(double time_s) { polling_.bytes_came(time_s); }
   void line_was_garbled() { polling_.line_was_garbled(); }
   void unit_restarted();
-  // Notes that the cycle under way was dropped, so that its replies are not expected.
+  // Abandons the current cycle, because other bytes are written.
   void abandon(double time_s);
 
   const std::optional<Trouble>& trouble() const { return trouble_; }
@@ -57,7 +58,7 @@ class PtuSteadyState {
   const std::optional<PtuEnvironment>& environment() const { return environment_.newest; }
   std::optional<double> last_good_s() const { return angles_.last_good_s(); }
   bool standing() const { return angles_.standing(); }
-  // Empty as long as errors on the line are rare, or were one short disturbance.
+  // The last error on the line, if there were ten disturbances within a minute; otherwise empty.
   std::string last_error() const {
     return corrected_.times >= kManyCorrected ? error_ : std::string();
   }
@@ -66,16 +67,16 @@ class PtuSteadyState {
  private:
   struct Environment {
     double next_s;
-    bool asked = false;  // a query is part of the cycle that is under way
+    bool asked = false;  // the current cycle contains a query
     std::optional<PtuEnvironment> newest = {};
   };
-  static constexpr int kManyCorrected = 10;  // number of disturbances within kCorrected_s
+  static constexpr int kManyCorrected = 10;  // disturbances within kCorrected_s
   static constexpr double kCorrected_s = 60.0;
   static constexpr double kDisturbed_s = 1.0;
   struct Corrected {
     int times = 0;
     double since_s = 0.0;
-    double last_s = -1e9;  // start of the newest disturbance
+    double last_s = -1e9;  // beginning of the newest disturbance
   };
   struct BoundsRefused {
     int times = 0;
@@ -104,7 +105,7 @@ class PtuSteadyState {
   Environment environment_;
   BoundsRefused bounds_refused_;
   Corrected corrected_;
-  std::optional<double> waiting_since_s_;  // time since which it waits for plausible positions
+  std::optional<double> waiting_since_s_;  // time since which plausible positions are missing
   std::optional<Trouble> trouble_;
   std::string error_;
 };

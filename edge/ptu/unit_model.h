@@ -1,4 +1,4 @@
-// The kind of a unit, and its report on supply voltage and temperatures. Pure.
+// Parses a unit's answers about its model (V) and about supply voltage and temperatures (O). Pure.
 #pragma once
 
 #include <optional>
@@ -13,19 +13,21 @@ enum class PtuModel {
   kESeries,  // PTU-E46 and similar, firmware 3
 };
 
-// The kind according to the answer to V.
+// The model, from the answer to V.
 PtuModel ptu_model(std::string_view version_text);
-// "PTU-D46 v2.12.1d1(C14/E)", "PTU-E46 v3.3.0", or the answer itself if it is neither.
+// The model's name, from the answer to V: "PTU-D46 v2.12.1d1(C14/E)", "PTU-E46 v3.3.0", or the
+// answer itself for an unknown model.
 std::string ptu_name(std::string_view version_text);
 
 struct PtuEnvironment {
   double supply_V = 0.0;
-  // A D46 has only one sensor, in its controller: head.
+  // A D46 states only head_degC, from the sensor in its controller.
   std::optional<double> head_degC, pan_degC, tilt_degC;
 };
 
-// Parses the answer to O: `Input 30 VDC @ 86 degF` from a D46, `13.2,99,97,104` (volts; head, pan,
-// tilt in degF) from an E46.
+// Parses the answer to O. A D46 answers `Input 30 VDC @ 86 degF`. An E46 answers `13.2,99,97,104`:
+// volts, then the temperatures of head, pan and tilt in degF. nullopt for other texts and
+// implausible values.
 std::optional<PtuEnvironment> ptu_environment(std::string_view text);
 
 }  // namespace ols::ptu
