@@ -1,4 +1,4 @@
-// Formats numbers for the texts of alarms. Pure.
+// Formats values with their units for the texts of alarms. Pure.
 #pragma once
 
 #include <string>

@@ -1,11 +1,11 @@
 // Estimates a constant from repeated measurements, such as a tripod's position or tilt. Pure.
 //
-// Readings are averaged with weights 1/sd^2. Their errors are assumed to be fully correlated,
-// because multipath and a sensor's zero error last for hours. The sd of the average is therefore
-// the weighted mean of the readings' sds; it does not shrink with the number of readings. A reading
-// that is inconsistent with the average is rejected. Rejected readings that agree with each other
-// are averaged separately. The second average replaces the first only if the configuration allows
-// it.
+// Readings are averaged with weights 1/sd^2 (sd: 1-sigma). Their errors are assumed to be fully
+// correlated, because multipath and a sensor's zero error last for hours. The sd of the average is
+// therefore the weighted mean of the readings' sds; it does not decrease with the number of
+// readings. A reading that is inconsistent with the average is rejected. Rejected readings that
+// agree with each other are averaged separately. This second average replaces the first one only if
+// the configuration permits it.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,11 +21,12 @@ class ConstantEstimator {
   using Vector = Eigen::Matrix<double, N, 1>;
 
   struct Config {
-    double gate_sigma = 5.0;     // limit for the deviation of a reading, on each axis
-    double memory_s = 3600.0;    // time in which a reading's weight decays by a factor of e
-    int settle_readings = 3;     // number of agreeing readings that are needed for a first estimate
-    double accept_move_s = 0.0;  // a new value is adopted after it has held for this long; 0: never
-    // The same for replacing a resumed value that no reading has confirmed.
+    double gate_sigma = 5.0;   // largest deviation of a consistent reading, for each component
+    double memory_s = 3600.0;  // time in which the weight of a reading decreases by a factor of e
+    int settle_readings = 3;   // number of readings that must agree before there is an estimate
+    // The rejected readings replace the value after they have agreed for this time; 0 for never.
+    double accept_move_s = 0.0;
+    // The same for a resumed value that no reading has confirmed.
     double replace_resumed_s = 60.0;
   };
   struct Estimate {
@@ -33,13 +34,13 @@ class ConstantEstimator {
     Vector sd = Vector::Zero();
   };
 
-  // `survey`: a known value, which readings never change.
+  // `survey`: a surveyed value, which readings never change; nullopt if there is none.
   ConstantEstimator(const Config& config, const std::optional<Estimate>& survey)
       : config_(config), survey_(survey) {}
 
-  // Resumes the value that was known before a restart. It holds until readings confirm it, or agree
-  // on another value for replace_resumed_s. Call it before the first reading. It has no effect if
-  // there is a survey.
+  // Resumes the value that was known before a restart. It is kept until a reading confirms it, or
+  // until readings agree on another value for replace_resumed_s. Call before the first reading. Has
+  // no effect if there is a survey.
   void resume(double time_s, const Estimate& known) {
     if (survey_) return;
     average_ = {};
@@ -47,10 +48,10 @@ class ConstantEstimator {
     support(time_s);
     resumed_ = true;
   }
-  // Whether the value is a resumed one that no reading has confirmed yet.
+  // Whether the estimate is a resumed value that no reading has confirmed yet.
   bool resumed() const { return resumed_; }
 
-  // Adds a reading. Readings must be in order of time and finite, with sd > 0.
+  // Adds a reading with its 1-sigma. Readings must be in order of time and finite, with sd > 0.
   void add(double time_s, const Vector& value, const Vector& sd) {
     if (!first_s_) first_s_ = time_s;
     const std::optional<Estimate> kept = estimate();
@@ -78,15 +79,16 @@ class ConstantEstimator {
     return average_.estimate();
   }
 
-  // The time of the last consistent reading or, if there was none, of the first reading; nullopt
+  // The time of the last consistent reading or, if there was none, of the first reading. nullopt
   // before any reading.
   std::optional<double> supported_until_s() const { return support_s_ ? support_s_ : first_s_; }
-  // The time since which every reading has been inconsistent; nullopt if the last one was
+  // The time since which all readings have been inconsistent; nullopt if the last one was
   // consistent.
   std::optional<double> disagrees_since_s() const { return disagrees_since_s_; }
-  // Deviation of the last inconsistent reading.
+  // The last inconsistent reading minus the estimate at that time.
   const Vector& distance() const { return distance_; }
-  // How far the value moved when a new value was adopted; nullopt if none was.
+  // The distance from the old value to the new one when the value was last replaced; nullopt if it
+  // never was.
   std::optional<double> moved() const { return moved_; }
 
  private:
@@ -115,7 +117,7 @@ class ConstantEstimator {
     return ((value - kept.value).cwiseAbs().array() <= gate.array()).all();
   }
 
-  // Adds a reading to the average of those that are not (yet) accepted.
+  // Adds a reading to the average of the readings that are not (yet) accepted.
   void gather(double time_s, const Vector& value, const Vector& sd) {
     if (candidate_.count > 0 && !agrees(candidate_.estimate(), value, sd)) candidate_ = {};
     candidate_.add(time_s, value, sd, config_.memory_s);

@@ -1,4 +1,4 @@
-// What a station needs from an inclinometer of any kind: its readings and its state.
+// The interface of all kinds of inclinometers.
 #pragma once
 
 #include <memory>
@@ -11,50 +11,54 @@
 
 namespace ols::sensors {
 
-// Each kind searches for its sensor in its own thread. Nothing throws after construction.
+// An inclinometer with its own thread, which connects to the sensor. No function throws after
+// construction.
 class Inclinometer {
  public:
   virtual ~Inclinometer() = default;
-  virtual std::vector<TiltReading> take_readings() = 0;  // those since the last call, oldest first
+  // readings since the last call, oldest first
+  virtual std::vector<TiltReading> take_readings() = 0;
   virtual device::DeviceReport report() const = 0;
 };
 
-// The configuration that all kinds have in common.
+// The configuration that all kinds of inclinometers have in common.
 struct InclinometerConfig {
   double stale_s = 3.0;  // after this time without a good reading, the sensor counts as faulty
-  // After this time without a change of any digit, the sensor counts as stuck.
+  // The sensor counts as stuck if no digit of its readings has changed for this time.
   double stuck_s = 60.0;
-  // Conversion from the sensor's axes to ORIGIN, in this order: swap the axes, subtract the zero
-  // (the reading when ORIGIN is level), apply the sign.
+  // The conversion from the sensor's axes to the axes of ORIGIN (the frame of the tripod's head):
+  // first swap the axes, then subtract the zero, which is the reading while ORIGIN is level, then
+  // apply the sign.
   int x_sign = 1, y_sign = 1;
   bool swap_axes = false;
   double x_zero_rad = 0.0, y_zero_rad = 0.0;
-  double range_rad = 0.7;  // a larger reading is rejected
-  double sd_rad = 2e-4;  // 1-sigma of the sensor's zero and mounting; averaging does not reduce it
+  double range_rad = 0.7;  // larger readings are rejected
+  // 1-sigma of the errors of zero and mounting, which averaging does not reduce
+  double sd_rad = 2e-4;
 };
 
-// Rows of the section [inclinometer].
+// The common rows of the section [inclinometer].
 std::vector<config::Row> inclinometer_rows(InclinometerConfig& config);
 
-// The angles that the sensor reports for its own two axes.
+// The angles of the sensor's own two axes, as it reports them.
 struct AxisAngles {
-  double time_s = 0.0;  // arrival, on the monotonic clock
+  double time_s = 0.0;  // arrival of the reading, on the station's monotonic clock
   double x_rad = 0.0;
   double y_rad = 0.0;
 };
 
-// Computes the tilt of ORIGIN from the angles of the sensor's axes. Each axis of the sensor shows
-// its own inclination relative to the horizontal, but in the chain tilt_y is applied after tilt_x.
-// At 10 degrees of tilt_x this makes a difference of 1.5 % of tilt_y. Pure.
+// Computes the tilt of ORIGIN from the angles of the sensor's axes. Each axis of the sensor
+// measures its own inclination to the horizontal. In the kinematic chain, however, tilt_y is
+// applied after tilt_x. At 10 degrees of tilt_x, the difference is 1.5 % of tilt_y. Pure.
 TiltReading origin_tilt(const InclinometerConfig& config, const AxisAngles& shown);
 
 class InclinometerKind {
  public:
   virtual ~InclinometerKind() = default;
-  virtual config::Section section() = 0;  // the section refers to this object
+  virtual config::Section section() = 0;  // binds its keys to this object's members
   virtual const InclinometerConfig& config() const = 0;
   virtual bool is_configured() const = 0;   // false if the station has no inclinometer
-  virtual std::string address() const = 0;  // where the station searches for it, in words
+  virtual std::string address() const = 0;  // description of where the sensor is, for messages
   virtual std::unique_ptr<Inclinometer> open() const = 0;
 };
 

@@ -1,11 +1,12 @@
-// The pose from the sensors as it is saved over a restart, and its text in a file. Pure.
+// The pose that the sensors have measured, as it is saved for the next start, and its text in a
+// file. Pure.
 //
 //   ols-pose 1
 //   position LATITUDE_deg LONGITUDE_deg HEIGHT_m SD_EAST_m SD_NORTH_m SD_UP_m UTIME_us
 //   tilt X_deg Y_deg SD_deg UTIME_us
 //   sum HEX                               (FNV-1a, 64 bits, of everything before this line)
 //
-// Position and tilt may each be missing.
+// The lines `position` and `tilt` may be missing.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,7 +37,7 @@ struct PersistedPose {
 
 std::string to_text(const PersistedPose& pose);
 
-// Returns the pose in the text, or an error that names the line.
+// Returns the pose in the text, or an error with the number of the line.
 std::variant<PersistedPose, std::string> persisted_pose_from(std::string_view text);
 
 }  // namespace ols::sensors

@@ -1,4 +1,4 @@
-// Derives the settings of the pose estimator from the sensors' configurations. Pure.
+// Copies settings from the sensors' configurations to that of the pose estimator. Pure.
 #pragma once
 
 #include "edge/sensors/gnss.h"
@@ -7,7 +7,8 @@
 
 namespace ols::sensors {
 
-// Sets everything except the settings that belong to [pose].
+// Sets the members of `estimator` that the sections of the sensors determine. The section [pose]
+// determines the others.
 void set_sensors(PoseEstimator::Config& estimator, const InclinometerConfig& inclinometer,
                  const GnssConfig& gnss);
 

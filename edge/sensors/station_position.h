@@ -1,4 +1,4 @@
-// The position of a station: chooses the GNSS fixes that are used, and averages them. Pure.
+// The position part of the pose estimator: chooses the usable GNSS fixes and averages them. Pure.
 #pragma once
 
 #include <optional>
@@ -15,9 +15,10 @@ namespace ols::sensors {
 class StationPosition {
  public:
   explicit StationPosition(const PoseEstimator::Config& config);
-  // `age_s`: time since its measurement.
+  // Resumes a persisted position. `age_s`: time since its measurement.
   void resume(const PersistedPose::Position& known, double now_s, double age_s);
-  // Whether the position was measured, or confirmed by a sensor, since the start.
+  // Whether a sensor has measured or confirmed the position since the start; false if it is
+  // surveyed.
   bool is_from_sensor() const;
   void add(const GnssReading& reading);
   void fill(StationPose& pose, double now_s) const;
@@ -29,9 +30,11 @@ class StationPosition {
   Alarm disagreement(double now_s) const;
 
   PoseEstimator::Config config_;
-  // Origin: the survey or, if there is none, the first antenna position.
+  // Origin: the surveyed position; otherwise the resumed one; otherwise the first position of the
+  // antenna.
   std::optional<LocalFrame> frame_;
-  std::optional<ConstantEstimator<3>> place_;  // antenna position, east-north-up in frame_ [m]
+  // position of the antenna, east-north-up in frame_ [m]
+  std::optional<ConstantEstimator<3>> place_;
   std::optional<GnssReading> last_;
   double known_s_ = 0.0;  // time at which the resumed position was measured
 };

@@ -1,4 +1,4 @@
-// The tilt of a station; a part of the pose estimator. Pure.
+// The tilt part of the pose estimator. Pure.
 #pragma once
 
 #include <optional>
@@ -15,9 +15,9 @@ namespace ols::sensors {
 class StationTilt {
  public:
   explicit StationTilt(const PoseEstimator::Config& config);
-  // `age_s`: time since its measurement.
+  // Resumes a persisted tilt. `age_s`: time since its measurement.
   void resume(const PersistedPose::Tilt& known, double now_s, double age_s);
-  // Whether the tilt was measured, or confirmed by a sensor, since the start.
+  // Whether a sensor has measured or confirmed the tilt since the start; false if it is surveyed.
   bool is_from_sensor() const;
   void add(const TiltReading& reading);
   void fill(StationPose& pose, double now_s) const;
@@ -31,7 +31,7 @@ class StationTilt {
   PoseEstimator::Config config_;
   ConstantEstimator<2> tilt_;  // x, y [rad]
   std::optional<TiltReading> last_;
-  double changed_s_ = 0.0;  // time of the last change of a digit
+  double changed_s_ = 0.0;  // time at which a digit of the readings last changed
   double known_s_ = 0.0;    // time at which the resumed tilt was measured
 };
 

@@ -1,5 +1,5 @@
 // A digital inclinometer (TE DPG2) on a serial line. A thread opens the device and reopens it after
-// a failure. report() states what is wrong.
+// a failure.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace ols::sensors {
 struct Dpg2Config : InclinometerConfig {
   std::string device;  // serial device; empty if there is no inclinometer
   int baud = 9600;
-  bool even_parity = false;  // needed for the BEI and AGS variants (8E1)
+  bool even_parity = false;  // true for the variants BEI and AGS, which use 8E1
 };
 
 class Dpg2Inclinometer : public Inclinometer {

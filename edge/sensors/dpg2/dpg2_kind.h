@@ -1,4 +1,4 @@
-// The DPG2 as a kind of inclinometer.
+// The inclinometer kind for the DPG2 (edge/sensors/inclinometer.h).
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
-// Parses the output of a TE (MEAS) DPG2 inclinometer: lines "X=+00.430" and "Y=-00.084" in degrees,
-// without checksum or time. It checks three things: the form to the last digit, that each Y
-// directly follows its X, and the range. Pure: takes bytes and their arrival, returns angles. The
-// result does not depend on how the bytes are split.
+// Parses the output of a TE (MEAS) DPG2 inclinometer: lines "X=+00.430" and "Y=-00.084", in
+// degrees, without checksum or time. Checks three things: every character of a line, that each Y
+// directly follows its X, and the range of the angles. Pure: takes bytes and their arrival time,
+// and returns angles. The result does not depend on how the bytes are split into calls.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,27 @@
 
 namespace ols::sensors {
 
-// Counters, which only increase.
+// Counters that only increase.
 struct Dpg2Counters {
   std::uint64_t readings = 0;
   std::uint64_t garbled = 0;       // lines that are neither X, nor Y, nor the version
   std::uint64_t unpaired = 0;      // an X without its Y or a Y without its X
-  std::uint64_t out_of_range = 0;  // number of pairs
+  std::uint64_t out_of_range = 0;  // pairs of X and Y with an angle out of range
 };
 
 class Dpg2Parser {
  public:
   explicit Dpg2Parser(double range_rad) : range_rad_(range_rad) {}
 
-  // Takes bytes that arrived at `now_s`. Returns the pairs that they complete.
+  // Takes bytes that have arrived at `now_s`. Returns the pairs of X and Y that they complete.
   std::vector<AxisAngles> receive(std::string_view bytes, double now_s);
 
-  // Commands to the sensor: send readings; report the version.
+  // Commands to the sensor: start to send readings; send the version.
   static constexpr const char* kStart = "S";
   static constexpr const char* kAskVersion = "V";
 
-  // Makes the next line that is not a reading count as the answer to kAskVersion.
+  // Call when kAskVersion is sent. The next line that is not a reading is then taken as the
+  // version.
   void expect_version() { version_awaited_ = true; }
   const std::string& version() const { return version_; }
 

@@ -1,10 +1,10 @@
-// Converts the messages of gpsd to readings of a GNSS receiver. Pure.
+// Converts gpsd's messages to readings of a GNSS receiver. Pure.
 //
-// Errors are stated in two ways. gpsd computes its own (eph, epx, epy, epv) from the geometry of
-// the satellites. These ignore RTK: 13 m for a fix that is accurate to 1 cm. gpsd's manual
-// describes their confidence as "guessed to be 95 %, may also be 50 %, one sigma, or two sigma".
-// The sentence GST contains the receiver's own 1-sigma of latitude, longitude and altitude. It is
-// used if it belongs to the same epoch as the fix.
+// The errors of a fix are available from two sources. gpsd computes errors (eph, epx, epy, epv)
+// from the geometry of the satellites. These do not take account of RTK: they are 13 m for a fix
+// that is accurate to 1 cm. gpsd's manual describes their confidence as "guessed to be 95 %, may
+// also be 50 %, one sigma, or two sigma". The NMEA sentence GST contains the receiver's own 1-sigma
+// of latitude, longitude and altitude. GST is used if it belongs to the same epoch as the fix.
 #pragma once
 
 #include <gps.h>
@@ -16,28 +16,29 @@
 
 namespace ols::sensors {
 
-// 1-sigma from a GST sentence.
+// The 1-sigmas from a GST sentence.
 struct GstSigmas {
   timespec epoch{};
   Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();
 };
 
-// The fix in `data`, with the errors of `gst` if they belong to the same epoch; otherwise with
-// gpsd's own errors, which are taken as `error_sigmas` sigmas. A value that is missing, not finite
-// or out of range lowers the quality of the fix. Dead reckoning, a manually entered position, and
+// The fix in `data` as a reading. The errors are those of `gst` if it belongs to the same epoch;
+// otherwise they are gpsd's errors divided by `error_sigmas`. If a value is missing, not finite or
+// out of range, the reading states a worse fix. Dead reckoning, a manually entered position and
 // simulator mode count as no fix.
 GnssReading gnss_from_gpsd(const gps_data_t& data, const std::optional<GstSigmas>& gst,
                            double time_s, double error_sigmas = 1.0);
 
-// Joins TPV messages (fix) and GST messages (errors), which arrive in either order. A fix is
-// returned without GST if the next fix arrives first, or after a short time.
+// Combines TPV messages (fix) with GST messages (errors) of the same epoch, which may arrive in
+// either order. A fix is returned without GST if the next fix arrives before its GST, or after 0.3
+// s.
 class GpsdEpochs {
  public:
   explicit GpsdEpochs(double error_sigmas = 1.0) : error_sigmas_(error_sigmas) {}
 
-  // Takes one message. data.set says which one, and must not include earlier messages.
+  // Takes one message. `data.set` must contain only the flags of this message.
   void take(const gps_data_t& data, double now_s);
-  // The readings that are complete at this time.
+  // The readings since the last call that are complete by `now_s`.
   std::vector<GnssReading> take_readings(double now_s);
 
  private:

@@ -1,4 +1,4 @@
-// A receiver that gpsd reads, as a kind of GNSS receiver.
+// The GNSS kind for receivers that gpsd reads (edge/sensors/gnss.h).
 #pragma once
 
 #include <memory>

@@ -16,12 +16,14 @@ class GpsdLink {
   GpsdLink(const GpsdLink&) = delete;
   GpsdLink& operator=(const GpsdLink&) = delete;
 
-  // Waits at most `timeout_s` for the next message; data().set says which one it is. Returns false
-  // on timeout. Throws std::runtime_error if gpsd has closed the connection.
+  // Waits at most `timeout_s` for the next message. data() then contains it, and data().set states
+  // its type. Returns false on timeout, or for a message that libgps cannot parse. Throws
+  // std::runtime_error if gpsd has closed the connection.
   bool read(double timeout_s);
   const gps_data_t& data() const { return *data_; }
 
-  // Why there are no reports, judged by gpsd's statements and by the device file.
+  // The probable reason if no reports come, from gpsd's messages about its devices and the
+  // existence of the device file.
   enum class Silence { kNoReceiver, kDeviceMissing, kReceiverSilent };
   Silence silence() const;
 

@@ -1,5 +1,5 @@
-// A GNSS receiver that gpsd reads (libgps). A thread connects to gpsd, and reconnects if the
-// connection is lost.
+// A GNSS receiver that gpsd reads. A thread connects to gpsd through libgps, and reconnects when
+// the connection is lost.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace ols::sensors {
 struct GpsdConfig : GnssConfig {
   std::string host;  // host of gpsd; empty if the station has no receiver
   std::string port = "2947";
-  double error_sigmas = 1.0;  // number of sigmas in gpsd's own errors; used only without GST
+  double error_sigmas = 1.0;  // gpsd's errors are this many sigmas; used only without GST
 };
 
 class GpsdReceiver : public Gnss {
