@@ -8,7 +8,7 @@
 namespace ols::clock {
 
 struct ChronyTracking {
-  // name or address of the time source: "PPS", "192.168.1.1"; empty if there is none yet
+  // Name or address of the time source: "PPS", "192.168.1.1"; empty if there is none yet.
   std::string reference;
   bool synchronised = false;
   double measured_utc_s = 0.0;  // UTC of the last measurement ("Ref time")

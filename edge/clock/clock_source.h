@@ -19,7 +19,7 @@ class ClockSource {
   ClockSource(const ClockSource&) = delete;
   ClockSource& operator=(const ClockSource&) = delete;
 
-  // the newest reading; nullopt if there is none since the last call
+  // The newest reading; nullopt if there is none since the last call.
   std::optional<ClockReading> take();
 
  private:

@@ -1,5 +1,5 @@
-// Estimates the accuracy of the station's UTC, in three states. Pure: edge/clock/clock_source.h
-// reads kernel and chrony.
+// Estimates the accuracy of the station's UTC. Pure: edge/clock/clock_source.h reads kernel and
+// chrony. The clock has one of three states:
 //
 //  - synchronised: a time service states that the clock is synchronised. The error is the service's
 //    own estimate.
