@@ -1,5 +1,5 @@
-// The state of a device, for the status message and ols-doctor. All devices have the same form of
-// report. Pure.
+// The state of a device, for the status message and ols-doctor. The form of the report is the same
+// for all devices. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace ols::device {
 
-// The values are those of station_status_t.
+// The numerical values are those in the message station_status_t.
 enum class DeviceState {
   kAbsent,    // configured, but not found
   kStarting,  // found, not usable yet
@@ -31,7 +31,7 @@ struct DeviceReport {
   std::string last_error;    // the last error as text; empty if there was none
   std::uint64_t errors = 0;  // number of errors so far; two errors may have the same text
 
-  std::vector<Alarm> alarms;  // conditions that hold now
+  std::vector<Alarm> alarms;  // the present alarms
   // Measured values by name; the name ends with the unit: ptu_supply_V.
   std::map<std::string, double> readings;
   // Counters by name, which only increase; the name begins with that of the device.
