@@ -1,5 +1,5 @@
-// The station's GPIO on real lines. A thread opens the lines, reopens them after a failure, and
-// waits for their edges.
+// The station's GPIO with its own thread. The thread opens the lines, reopens them after a failure,
+// and waits for their edges.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace ols::gpio {
 
 class Gpio : public GpioHandover {
  public:
-  // That thread calls the callbacks.
+  // The thread calls the two callbacks.
   Gpio(const GpioConfig& config, OnStop on_stop, OnRearm on_rearm = {});
   ~Gpio() override;
 

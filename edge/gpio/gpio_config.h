@@ -13,14 +13,14 @@ struct GpioConfig {
   // if there is no GPIO.
   std::string chip;
   int led_line = -1;  // -1 if there is none
-  // emergency stop; -1 if there is none; normally closed, so that a broken wire acts as a stop
+  // Emergency stop; -1 if there is none; normally closed, so that a broken wire acts as a stop.
   int stop_line = -1;
-  // The level of stop_line when the contact is open, that is pressed. False: high, because the
-  // contact connects to ground and the line is pulled up. True: low, because the contact connects
-  // to the supply and the line is pulled down.
+  // The level of stop_line while the stop is pressed, that is, while its contact is open. False:
+  // high, because the contact connects to ground and the line is pulled up. True: low, because the
+  // contact connects to the supply and the line is pulled down.
   bool stop_active_low = false;
   double stop_release_s =
-      0.05;  // A release counts when it has been stable for this time; a press counts at once.
+      0.05;  // a release counts when it has been stable for this time; a press counts at once
   // The button that re-arms the station after an emergency stop; normally open.
   int rearm_line = -1;  // -1 if there is none
   // True: the button connects to ground, and the line is pulled up. False: the button connects to

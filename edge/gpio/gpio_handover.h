@@ -2,7 +2,7 @@
 // Gpio. Handles the status LED, the inputs for emergency stop and re-arming, and the optional
 // camera trigger.
 //
-// This emergency stop by software is only an addition to a hardware stop that cuts the power of the
+// The emergency stop by software is only an addition to a hardware stop that cuts the power of the
 // motors (docs/field-guide.md).
 #pragma once
 
@@ -69,7 +69,7 @@ class GpioHandover {
   const GpioConfig config_;
   const OnStop on_stop_;
   const OnRearm on_rearm_;
-  // Used only by turn()'s thread:
+  // Used only by the thread that calls turn():
   StopInput stop_;
   RearmInput rearm_;
   double refresh_s_ = 0.0;

@@ -5,9 +5,11 @@
 // and for tests.
 //
 // The socket's protocol is text, one message per line of text. The server sends the level of each
-// input when the client connects, at every change, and on request: server: in 17 1 input line 17 is
-// high client: read 17 answered by "in 17 LEVEL" at once client: out 22 0 set output line 22 low
-// Any other line ends the connection.
+// input when the client connects, at every change, and on request:
+//   server: in 17 1     input line 17 is high
+//   client: read 17     answered by "in 17 LEVEL" at once
+//   client: out 22 0    set output line 22 low
+// Any other message ends the connection.
 #pragma once
 
 #include <memory>
