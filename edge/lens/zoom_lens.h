@@ -19,8 +19,9 @@ class ZoomLens {
   void add(const ZoomSample& sample);
 
   // The calibrated values at `time_s`. nullopt if this is more than kSilent_s before the oldest or
-  // after the newest sample. While the zoom moves, their 1-sigma grows with its speed, with the
-  // error of the samples' times, and with the distance of `time_s` beyond the samples.
+  // after the newest sample. While the zoom moves, the values' 1-sigma grows with its speed, with
+  // the error of the samples' times and, before or after all samples, with the time from the
+  // nearest one.
   std::optional<ZoomPoint> at(double time_s) const;
   std::optional<ZoomPoint> newest() const;
   // Whether the zoom stood still at `time_s`: the samples just before and after differ by at most
