@@ -1,4 +1,4 @@
-// Writes the borders of the region in which a station's mount can point into the station's status.
+// Writes into a station's status the borders of the directions that its mount can reach.
 #pragma once
 
 #include <vector>

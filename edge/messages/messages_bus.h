@@ -28,8 +28,8 @@
 
 namespace ols::station {
 
-// Where the program's key and its persisted trust list are stored. `settings.state_folder` takes
-// precedence over the process's environment.
+// The places of the station's key and of its saved trust list, from the process's environment. If
+// settings.state_folder is set, it replaces the environment's folder for persisted state.
 trust::Environment trust_environment(const StationSettings& settings);
 
 class StationBus {
