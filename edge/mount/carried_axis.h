@@ -23,7 +23,7 @@ class CarriedAxis {
   // A report of the mount.
   struct Report {
     double angle_rad = 0.0;
-    // variance of the angle's error, which depends on the position
+    // Variance of the angle's error, which depends on the position.
     double place_variance_rad2 = 0.0;
     double time_sd_s = 0.0;         // 1-sigma of the report's time (white)
     double shared_time_sd_s = 0.0;  // 1-sigma of an error that the times of all reports share
@@ -66,13 +66,13 @@ class CarriedAxis {
   void learn_scatter(double off_rad, double explained_rad2);
   bool is_elsewhere(const Seen& seen) const;
 
-  // the pictures' rotation at the newest report, the instant of the state
+  // The pictures' rotation at the newest report, which is the instant of state_.
   std::optional<Seen> newest_;
   Vector state_ = Vector::Zero();
   std::optional<Matrix> covariance_;
   double used_turned_rad_ = 0.0;  // turned_rad at the last report that updated the state
   double place_rad2_ = 0.0;       // place_variance_rad2 of the newest report
-  // mean square error of the reports that changes from position to position
+  // Mean square error of the reports that changes from position to position.
   double scatter_rad2_ = 0.0;
 };
 

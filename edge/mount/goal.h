@@ -5,7 +5,7 @@
 
 namespace ols::mount {
 
-// If rate_only is false: the angles to reach at time_s, and the rates there.
+// If rate_only is false, the mount must reach `angles` at time_s, and must then move at `rate`.
 struct Goal {
   double time_s = 0.0;  // on the station's monotonic clock
   PanTilt angles;

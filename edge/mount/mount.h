@@ -36,7 +36,7 @@ class Mount {
   virtual std::optional<Limits> limits() const = 0;
 
   // Halts the mount at once; this order overtakes all others. The mount does not move again before
-  // clear_emergency(). It is only an addition to a stop by hardware.
+  // clear_emergency(). This halt is only an addition to a stop by hardware.
   virtual void emergency_halt() = 0;
   virtual void clear_emergency() = 0;
 
@@ -45,8 +45,8 @@ class Mount {
   // in an emergency.
   virtual void home() = 0;
   virtual void stop_homing() = 0;
-  // Whether the mount may start homing by itself, if it is configured to do so. Initially it may
-  // not.
+  // Sets whether the mount may start homing by itself, if it is configured to do so. Initially it
+  // may not.
   virtual void allow_rehoming(bool allowed) = 0;
   // Number of homings that this process has ordered. Each may change the zero of the angles.
   virtual std::uint64_t homings() const = 0;

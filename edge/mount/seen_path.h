@@ -12,7 +12,7 @@ namespace ols::mount {
 
 // The mount's rotation between two pictures.
 struct SeenTurn {
-  // mid-exposures of the two pictures, on the station's monotonic clock
+  // Mid-exposures of the two pictures, on the station's monotonic clock.
   double from_s = 0.0, to_s = 0.0;
   // For a rolling shutter: the time from from_s and to_s to the exposure of the rows in which the
   // rotation was measured. 0 for a global shutter.

@@ -35,8 +35,8 @@ struct Space {
   Span x, y;
 };
 
-// The moves that a mount offers: to a position (absolute), at a velocity (continuous). Each has the
-// range of its numbers.
+// The moves that a mount offers, each with the range of its numbers: to a position (absolute), at a
+// velocity (continuous).
 struct Moves {
   std::optional<Space> absolute, continuous;
 };
@@ -151,7 +151,7 @@ class Drive {
   Travel pan_travel_, tilt_travel_;
   // true: the positions have not followed an order, and no later one either
   bool distrusted_ = false;
-  // no motion is ordered until then, because one was refused or ignored
+  // No motion is ordered until then, because one was refused or ignored.
   double refused_until_s_ = -1e9;
   // When the mount was last observed to move without an order, not to stop, and to ignore an order.
   std::optional<double> unordered_s_, unstopped_s_, ignored_s_;

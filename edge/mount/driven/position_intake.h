@@ -18,7 +18,7 @@
 
 namespace ols::mount {
 
-// The difference [rad] of the axis that differs more.
+// The larger one of the two axes' differences [rad].
 double distance(const PanTilt& a, const PanTilt& b);
 
 class PositionIntake {

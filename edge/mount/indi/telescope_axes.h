@@ -1,9 +1,9 @@
 // Converts between right ascension and declination of date, as an INDI telescope reports them, and
 // the angles of the telescope's axes. Uses the IAU's models (ERFA). Pure.
 //
-// Equatorial: the pan axis points to the celestial pole above the horizon; positive pan is a left
-// turn about it. On the northern hemisphere, pan is minus the hour angle, and tilt is the
-// declination. On the southern one, pan is the hour angle, and tilt is minus the declination.
+// Equatorial: the pan axis points to the celestial pole above the horizon; a positive pan turns
+// left about it. In the northern hemisphere, pan is minus the hour angle, and tilt is the
+// declination. In the southern one, pan is the hour angle, and tilt is minus the declination.
 // Altazimuth: pan is minus the azimuth, and tilt is the elevation.
 //
 // A driver computes the right ascension from the axis's angle and its sidereal time; it computes

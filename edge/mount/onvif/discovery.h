@@ -31,7 +31,7 @@ class Discovery {
   void add(const std::string& datagram, const std::string& sender);
 
   const std::vector<FoundCamera>& cameras() const { return cameras_; }
-  // sender and reason of each refused answer: "10.0.0.5: no XAddrs"
+  // Sender and reason of each refused answer: "10.0.0.5: no XAddrs"
   const std::vector<std::string>& refused() const { return refused_; }
 
  private:

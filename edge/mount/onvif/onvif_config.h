@@ -11,7 +11,7 @@ namespace ols::onvif {
 struct OnvifConfig {
   std::string url;   // address of the device service, without user and password
   std::string user;  // empty for no login
-  // file whose first line is the password; it is read at each connection
+  // File whose first line is the password; it is read at each connection.
   std::string password_file;
   std::string profile;     // token of the camera's profile to use; if empty, the first one with PTZ
   std::string pinned_key;  // for https; see HttpLink::Config

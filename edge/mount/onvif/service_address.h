@@ -11,9 +11,9 @@ void check_address(const std::string& url);
 
 // The address to use for a service, from the configured address and the address that the camera
 // states. The host is always the configured one: a camera behind a router states an address of its
-// own network, and the password may go only to the configured host. The path is that which the
-// camera states. The port is also the stated one if scheme and host agree with the configured ones;
-// otherwise it is the configured port.
+// own network, and the password may go only to the configured host. The path is the stated one. The
+// port is the stated one if the stated scheme and host are the configured ones; otherwise it is the
+// configured port.
 std::string service_address(const std::string& configured, const std::string& stated);
 
 // The address to use for a stream: the address that the camera states, with the configured host and
