@@ -26,8 +26,8 @@ using OpenGpio = std::function<std::unique_ptr<gpio::GpioHandover>(gpio::GpioHan
 
 // The devices that a configuration names. A simulation provides simulated ones instead.
 struct ChosenDevices {
-  // Null for devices that are not configured. The GPIO that `open_gpio` makes calls its callbacks
-  // from its own thread.
+  // The members are null for devices that are not configured. `open_gpio` makes the GPIO, whose
+  // thread calls the two callbacks.
   OpenGpio open_gpio;
   std::unique_ptr<lens::LensHandover> lens;
   std::unique_ptr<sensors::Inclinometer> inclinometer;

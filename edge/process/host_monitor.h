@@ -67,7 +67,7 @@ class HostMonitor {
   HostConfig config_;
   std::shared_ptr<Shared> shared_;
   double slowest_s_ = 0.0;  // slowest turn since the last report
-  // durations of the last turns; if full, the oldest is at turns_ % kKept
+  // Durations of the last turns; if full, the oldest is at turns_ % kKept.
   std::vector<double> turns_s_;
   std::uint64_t turns_ = 0;
   std::uint64_t slow_turns_ = 0;

@@ -18,8 +18,8 @@ class PoseStore {
 
   // The pose that was in the file at the start.
   const sensors::PersistedPose& found() const { return found_; }
-  // Has the pose written by another thread and returns at once. A part that is missing, position or
-  // tilt, keeps its value of the start.
+  // Passes the pose to a thread that writes it, and returns at once. If `pose` contains no position
+  // or no tilt, the one that was in the file at the start is written.
   void keep(sensors::PersistedPose pose);
   // Why the pose was not read or cannot be written; empty if all is well.
   Alarm trouble() const;

@@ -1,4 +1,5 @@
-// Saves the seen skyline (glossary) in a file, so that the station still has it after a restart.
+// Saves the seen skyline (docs/glossary.md) in a file, so that the station still has it after a
+// restart.
 #pragma once
 
 #include <optional>
@@ -15,9 +16,9 @@ class SkylineStore {
   // Reads the saved skyline from `file`. If the name is empty, nothing is saved.
   explicit SkylineStore(const std::string& file);
 
-  // At the first call, returns the skyline that was in the file at the start. nullopt if there was
-  // none, or if it belongs to another owner, that is another station, calibration or kinematic
-  // chain.
+  // At the first call, returns the skyline that was in the file at the start. nullopt at later
+  // calls, if there was none, or if its owner (station, calibration, kinematic chain) is another
+  // one.
   std::optional<skyline::HidingSkyline> take_found(const skyline::SkylineOwner& owner);
   // Writes `saved` if the last writing is at least kInterval_s ago; does not wait for the disk.
   // `now_s`: CLOCK_MONOTONIC.

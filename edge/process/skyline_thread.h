@@ -1,6 +1,7 @@
-// Compares pictures with the skyline of the land, and collects the seen skyline (glossary). Has its
-// own thread, with lower priority than the control loop. The thread first reads the land, which
-// takes seconds. If the land cannot be read, there is an alarm, and the station runs without land.
+// Compares pictures with the skyline of the land, and collects the seen skyline (docs/glossary.md).
+// Has its own thread, with lower priority than the control loop. The thread first reads the land,
+// which takes seconds. If the land cannot be read, there is an alarm, and the station runs without
+// land.
 #pragma once
 
 #include <condition_variable>

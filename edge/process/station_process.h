@@ -30,8 +30,7 @@ struct Outside {
 
 class StationProcess {
  public:
-  // Does not throw if the network or devices are absent; the station then tries again and again to
-  // reach them.
+  // The network and all devices may be absent. The station then tries periodically to reach them.
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
                  Outside outside = {open_chosen_devices, host_time_service()});
 
