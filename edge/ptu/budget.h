@@ -3,10 +3,10 @@
 // A cycle in motion requests each position twice (edge/ptu/poll_cycle.h):
 //
 //    PP PS18700 TS18700 TP PP-49467 TP TP-14622 PP        out, 49 bytes
-//   * -49467  *  *  * -14622  *  * -14622  *  * -49467    in, 50 bytes; the last two positions, 20
-//                                                         bytes, after the request's end at worst
+//   * -49467  *  *  * -14622  *  * -14622  *  * -49467    in, 50 bytes; in the worst case, the last
+//                                                         20 bytes come after the request's end
 //
-//   baud      cycle in motion, 2 ms of the unit's own    at rest (13 bytes out, 40 in)
+//   baud      cycle in motion, with 2 ms for the unit    at rest (13 bytes out, 40 in)
 //   9600      74 ms                                      48 ms
 //   19200     38 ms                                      25 ms
 //   38400     20 ms                                      14 ms

@@ -61,7 +61,7 @@ std::string halt_request();
 struct PtuReply {
   bool ok = true;       // true for `*`, false for `!`
   bool echoed = false;  // true: an echo preceded the reply, thus the unit's echo is on
-  // number of limit hits (!P, !T) in the reply's line; homing causes several: !T!T!P!P*
+  // Number of limit hits (!P, !T) in the reply's line; homing causes several: !T!T!P!P*.
   int limit_hits = 0;
   std::string text;              // the text after `*` or `!`, trimmed
   std::optional<double> number;  // value of the first word of the text that is a number
@@ -78,7 +78,8 @@ enum class PtuComplaint {
   kPositionLimit,
   kSpeedLimit,     // "Pan speed cannot exceed N", "Motor speed cannot be less than N"
   kNotReferenced,  // "Axis Error": the axis has not been homed since power-up
-  // "Illegal Command Entered": it was corrupted on the line, or this firmware does not know it
+  // "Illegal Command Entered": the command was corrupted on the line, or this firmware does not
+  // know it
   kIllegal,
   kOther,
 };
@@ -111,9 +112,9 @@ class PtuReplyParser {
   // Discards an incomplete line.
   void reset();
 
-  // number of lines that are neither a reply nor an echo
+  // Number of lines that are neither a reply nor an echo.
   std::uint64_t garbled() const { return garbled_; }
-  // number of lines that only a restarting unit sends
+  // Number of lines that only a restarting unit sends.
   std::uint64_t banners() const { return banners_; }
   const PtuLimitHits& limit_hits() const { return limit_hits_; }  // number of !P and !T
 
@@ -124,7 +125,7 @@ class PtuReplyParser {
 
   std::string line_;
   bool overlong_ = false;
-  // time of the first `*` in this line or, if there is none, of the first `!`
+  // Time of the first `*` in this line or, if there is none, of the first `!`
   double mark_s_ = 0.0;
   bool marked_ = false;
   std::uint64_t garbled_ = 0;

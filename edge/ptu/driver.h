@@ -73,7 +73,7 @@ class PtuDriver {
 
   PtuState state() const;
   const PtuCounters& counters() const { return counters_; }
-  // the limits in force; once the unit is ready, the narrower of the configured and the unit's own
+  // The limits in force; once the unit is ready, the narrower of the configured and the unit's own.
   const mount::Limits& limits() const;
   std::string firmware() const;    // the unit's answer to V; empty until ready
   std::string last_error() const;  // empty if there was no error

@@ -17,8 +17,8 @@ std::string limits_conflict(const mount::Limits& configured, const PtuFacts& fac
 
 class MotionCommands {
  public:
-  // Uses the narrower ones of the configured limits and the unit's own. There must be no
-  // limits_conflict().
+  // The limits in force are the narrower of the configured limits and the unit's own. There must be
+  // no limits_conflict().
   MotionCommands(const PtuConfig& config, const PtuFacts& facts);
 
   // The unit's present state, as far as it is known.

@@ -32,8 +32,8 @@ class PositionCheck {
   Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& commanded_rad_s2);
   const mount::AngleSample& sample() const { return sample_; }
 
-  // The rate from the last accepted pair to the one before; 0 if there is none, or if they are 0.3
-  // s or more apart.
+  // The rate between the last two accepted pairs; 0 before the second one, or if the two are 0.3 s
+  // or more apart.
   PanTilt rate_rad_s() const;
   // Whether the positions of both axes do not change.
   bool standing() const;

@@ -28,7 +28,7 @@ class ReferenceWatch {
   // Notes that the unit answers at this baud rate. Limit hits that were read at other rates are
   // then discarded as noise.
   void rate_is(int baud);
-  // Notes that a unit restarts, and that its messages about this came at this baud rate.
+  // Notes that a unit restarts; its messages came at this baud rate.
   void restarts_at(int baud, double time_s) { heard_[baud].time_s = time_s; }
   // The baud rate at which a unit was recently observed to restart or to home; nullopt if none was.
   // The unit will answer at this rate when it has finished.

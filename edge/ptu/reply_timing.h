@@ -16,9 +16,9 @@ struct PtuReading {
   double half_s = 0.0;     // largest error of time_s
 };
 
-// Processes the replies of one poll cycle, in order. `asked_s`: time at which the command of the
-// reply had been sent. `late_s`: the longest time for which the reply's bytes may have waited
-// before they were read.
+// Processes the replies of one poll cycle, in order. `asked_s`: time at which the command that the
+// reply answers had been sent. `late_s`: the longest time for which the reply's bytes may have
+// waited before they were read.
 class ReplyTiming {
  public:
   // `usual_latency_s`: the usual time from the end of a query to the start of its reply.
@@ -35,7 +35,7 @@ class ReplyTiming {
 
  private:
   double started_s(const PtuReply& reply) const { return reply.began_s - byte_s_; }
-  // estimated time at which the unit began to execute the command
+  // Estimated time at which the unit began to execute the command.
   double begun_s(double asked_s) const;
   bool waited(const PtuReply& reply, double late_s) const;
 

@@ -19,7 +19,7 @@ namespace ols::ptu {
 
 struct ServoConfig {
   double gain_hz = 3.0;          // proportional gain on the position error
-  double look_ahead_s = 0.3;     // the commanded position lies ahead by this time
+  double look_ahead_s = 0.3;     // time by which the commanded position is ahead of the goal
   double max_speed_rad_s = 1.0;  // about 57 deg/s
   double min_speed_rad_s = 0.0;  // minimum speed of the unit (PL, TL); set by the driver
   double max_acceleration_rad_s2 = 1.0;

@@ -21,7 +21,7 @@ class PtuStarting {
 
   enum class Event {
     kNone,
-    // the caller must drop an incomplete reply: the line has become quiet, or a reply is missing
+    // The caller must drop an incomplete reply: the line has become quiet, or a reply is missing.
     kLineDropped,
     kLineNotQuiet,  // bytes arrive for longer than a PTU would send
     kNoReply,
@@ -42,7 +42,7 @@ class PtuStarting {
   // Takes the reply to the pending command. Returns false if the unit cannot be driven; refusal()
   // then states the reason.
   bool take(const PtuReply& reply);
-  // the unit has answered at least one command at this baud rate
+  // The unit has answered at least one command at this baud rate.
   bool answered() const { return answered_; }
   std::string refusal(const PtuReply& reply) const { return sequence_.refusal(reply); }
   bool not_referenced() const { return sequence_.not_referenced(); }
