@@ -23,7 +23,7 @@ struct RecordedEvent {
   double expected_bytes = 0.0;  // estimate of the bytes still to be written
   bool closed = false;          // no more frames will be added
   std::uint64_t written = 0;    // number of frames written
-  // why EventFolder::finish() failed; all frames are on the disk; empty if it did not fail
+  // Why EventFolder::finish() failed; all frames are on the disk; empty if it did not fail.
   std::string unfinished;
   double retry_s = 0.0;  // time of the next attempt to finish the event
   std::string name;      // folder's name; `name` and `folder` are used only by the writing thread

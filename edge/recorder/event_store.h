@@ -2,8 +2,9 @@
 // chooses the event to remove when space is needed.
 //
 // Any program on the bus can request recordings. New recordings must therefore not displace old
-// ones freely. In any period of `protect_s`, at most one event is removed, and it must be older
-// than `protect_s`. Among these, it is the oldest event of the label that occupies most space.
+// ones freely. In any period of `protect_s`, at most one event is removed. It must be older than
+// `protect_s`; among the events that are, the oldest one of the label that occupies most space is
+// removed.
 #pragma once
 
 #include <cstdint>
@@ -44,10 +45,11 @@ class EventStore {
 
   // A name for a new event that is not in use yet.
   std::string free_name(std::int64_t utime_us, const std::string& label) const;
-  // Makes space for `bytes` more. If they do not fit into the quota, removes the event chosen as
-  // described above, but only if that suffices. Never removes an event in `open`, because its
-  // frames are still arriving. Throws DiskFull if the bytes do not fit into the quota, or if they
-  // would use the reserve of the disk. The age of an event is computed from `now_utime_us` (UTC).
+  // Makes space for `bytes` more. If they do not fit into the quota, removes one event, chosen as
+  // described above, but only if its removal makes enough space. Never removes an event in `open`,
+  // because its frames are still arriving. Throws DiskFull if the bytes do not fit into the quota,
+  // or if they would use the reserve of the disk. The age of an event is computed from
+  // `now_utime_us` (UTC).
   void make_room(double bytes, const Names& open, std::int64_t now_utime_us);
   // The free space in the quota, including the space of the event that may be removed.
   double room_bytes(const Names& open, std::int64_t now_utime_us) const;

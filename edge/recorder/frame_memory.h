@@ -26,8 +26,7 @@ class FrameMemory {
   FrameMemory(double span_s, double most_bytes) : span_s_(span_s), most_bytes_(most_bytes) {}
 
   void add(const RecordedFrame& frame);
-  // The frames from one instant to another (both included), oldest first. Monotonic times of
-  // mid-exposure.
+  // The frames with mid_exposure_s from `from_s` to `to_s` (both included), oldest first.
   std::vector<RecordedFrame> between(double from_s, double to_s) const;
   const std::deque<RecordedFrame>& frames() const { return frames_; }
   std::size_t bytes() const { return bytes_; }
