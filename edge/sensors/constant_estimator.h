@@ -21,7 +21,8 @@ class ConstantEstimator {
   using Vector = Eigen::Matrix<double, N, 1>;
 
   struct Config {
-    double gate_sigma = 5.0;   // largest deviation of a consistent reading, for each component
+    // [sigma] largest deviation of a consistent reading, for each component.
+    double gate_sigma = 5.0;
     double memory_s = 3600.0;  // time in which the weight of a reading decreases by a factor of e
     int settle_readings = 3;   // number of readings that must agree before there is an estimate
     // The rejected readings replace the value after they have agreed for this time; 0 for never.

@@ -17,7 +17,7 @@ namespace ols::sensors {
 class Gnss {
  public:
   virtual ~Gnss() = default;
-  // readings since the last call, oldest first
+  // Readings since the last call, oldest first.
   virtual std::vector<GnssReading> take_readings() = 0;
   virtual device::DeviceReport report() const = 0;
 };

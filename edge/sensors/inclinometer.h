@@ -16,7 +16,7 @@ namespace ols::sensors {
 class Inclinometer {
  public:
   virtual ~Inclinometer() = default;
-  // readings since the last call, oldest first
+  // Readings since the last call, oldest first.
   virtual std::vector<TiltReading> take_readings() = 0;
   virtual device::DeviceReport report() const = 0;
 };
@@ -49,7 +49,8 @@ struct AxisAngles {
 
 // Computes the tilt of ORIGIN from the angles of the sensor's axes. Each axis of the sensor
 // measures its own inclination to the horizontal. In the kinematic chain, however, tilt_y is
-// applied after tilt_x. At 10 degrees of tilt_x, the difference is 1.5 % of tilt_y. Pure.
+// applied after tilt_x. At 10 degrees of tilt_x, the measured inclination of Y is therefore 1.5 %
+// smaller than tilt_y. Pure.
 TiltReading origin_tilt(const InclinometerConfig& config, const AxisAngles& shown);
 
 class InclinometerKind {

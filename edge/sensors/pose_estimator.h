@@ -34,7 +34,7 @@ struct StationPose {
   PoseSource position_source = PoseSource::kNone;
   double tilt_x_rad = 0.0, tilt_y_rad = 0.0;
   double tilt_sd_rad = 0.0;
-  // kNone: the station is assumed to be level, with level_sd_rad
+  // kNone: the station is assumed to be level, with the 1-sigma level_sd_rad.
   PoseSource tilt_source = PoseSource::kNone;
 };
 
@@ -52,7 +52,8 @@ class PoseEstimator {
     double gnss_memory_s = 3600.0;     // time constant of the average of positions
     // 1-sigma of the errors of the sensor's zero and mounting, which averaging does not reduce.
     double inclinometer_sd_rad = 2e-4;
-    // the same for tilts; short, because a tripod's legs may sink into soft ground
+    // Time constant of the average of tilts; short, because a tripod's legs may sink into soft
+    // ground.
     double inclinometer_memory_s = 60.0;
     double level_sd_rad = 0.05;  // 1-sigma of a tilt that is neither surveyed nor measured
     double gnss_stale_s = 10.0;

@@ -33,7 +33,7 @@ class StationPosition {
   // Origin: the surveyed position; otherwise the resumed one; otherwise the first position of the
   // antenna.
   std::optional<LocalFrame> frame_;
-  // position of the antenna, east-north-up in frame_ [m]
+  // Position of the antenna, east-north-up in frame_ [m].
   std::optional<ConstantEstimator<3>> place_;
   std::optional<GnssReading> last_;
   double known_s_ = 0.0;  // time at which the resumed position was measured

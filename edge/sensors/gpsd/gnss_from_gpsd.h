@@ -30,8 +30,8 @@ GnssReading gnss_from_gpsd(const gps_data_t& data, const std::optional<GstSigmas
                            double time_s, double error_sigmas = 1.0);
 
 // Combines TPV messages (fix) with GST messages (errors) of the same epoch, which may arrive in
-// either order. A fix is returned without GST if the next fix arrives before its GST, or after 0.3
-// s.
+// either order. A fix is returned without GST if its GST does not arrive within 0.3 s, or before
+// the next fix.
 class GpsdEpochs {
  public:
   explicit GpsdEpochs(double error_sigmas = 1.0) : error_sigmas_(error_sigmas) {}

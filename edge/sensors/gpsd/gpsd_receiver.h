@@ -13,7 +13,8 @@ namespace ols::sensors {
 struct GpsdConfig : GnssConfig {
   std::string host;  // host of gpsd; empty if the station has no receiver
   std::string port = "2947";
-  double error_sigmas = 1.0;  // gpsd's errors are this many sigmas; used only without GST
+  // Number of sigmas that gpsd's errors are taken as; used only without GST.
+  double error_sigmas = 1.0;
 };
 
 class GpsdReceiver : public Gnss {
