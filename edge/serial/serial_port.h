@@ -22,12 +22,12 @@ class SerialPort {
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
-  // Waits until bytes arrive, but at most `timeout_s` and not beyond a wakeup. Returns the bytes,
-  // which may be none. Throws std::system_error if the device has vanished.
+  // Waits until bytes arrive, a wakeup comes, or `timeout_s` has passed. Returns the bytes, which
+  // may be none. Throws std::system_error if the device has vanished.
   std::string read(double timeout_s);
 
-  // Writes all bytes. If a wakeup comes while it waits, it drops the remaining bytes and returns.
-  // Throws std::system_error if the device has vanished or accepts nothing for 0.2 s.
+  // Writes all bytes. If a wakeup comes while the device accepts no bytes, the remaining bytes are
+  // dropped. Throws std::system_error if the device has vanished or accepts nothing for 0.2 s.
   void write(std::string_view bytes);
 
   // Drops earlier bytes that have not been sent yet, and writes `bytes`. Does not wait. Returns
