@@ -20,8 +20,8 @@ inline constexpr std::uint32_t kLargestRequest_bytes = 256;
 std::optional<VideoRequest> decode_request(std::span<const std::uint8_t> bytes);
 
 // Makes the answer to a request: crops, scales and compresses the frame, which takes milliseconds.
-// `sequence`: number of the answer. `stream`: the H.264 encoder of the requesting viewer. Returns
-// an empty vector if the picture cannot be coded.
+// `sequence`: number of the frame. `stream`: the H.264 encoder of the requesting viewer. Returns an
+// empty vector if the picture cannot be coded.
 std::vector<std::uint8_t> encode_frame(const VideoFrame& frame, std::int64_t sequence,
                                        const VideoSender& sender, const VideoRequest& request,
                                        H264Encoder& stream);

@@ -14,7 +14,7 @@ namespace ols::video {
 // The camera's position, direction and lens at mid-exposure.
 struct CameraView {
   Eigen::Vector3d centre_ecef = Eigen::Vector3d::Zero();  // [m]
-  // rotates from ECEF to the camera's axes (OpenCV)
+  // Rotates from ECEF to the camera's axes (OpenCV).
   Eigen::Matrix3d R_camera_ecef = Eigen::Matrix3d::Identity();
   CameraIntrinsics intrinsics;
 };
@@ -47,12 +47,12 @@ struct VideoRequest {
   bool key_frame = false;  // for H.264: the picture must be decodable without earlier ones
 };
 
-// The requested part of a frame: the whole pixels that the request touches, inside the frame. It
+// The requested part of a frame: all pixels of the frame that the requested rectangle touches. It
 // has at least one pixel.
 cv::Rect region_of(const VideoRequest& request, const cv::Size& frame);
 
-// The size of the picture that is sent of this region. For JPEG it is never larger than the region.
-// For H.264, width and height are even numbers from 16 to 1920 pixels.
+// The size of the picture in which this region is sent. For JPEG, it is never larger than the
+// region. For H.264, width and height are even numbers from 16 to 1920 pixels.
 cv::Size picture_size(const VideoRequest& request, const cv::Size& region);
 
 }  // namespace ols::video

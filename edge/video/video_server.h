@@ -1,8 +1,8 @@
 // Serves a station's pictures to permitted viewers, over TCP (docs/video.md). It answers each
-// request with the newest frame, and waits for one if the viewer already has the newest. Pictures
-// never queue, however slow a viewer or its network is, and a picture is compressed only on
-// request. The server has its own thread; the control loop only hands over a reference to its
-// newest frame.
+// request with the newest frame. If the viewer already has this frame, the answer waits for the
+// next one. Pictures never queue, however slow a viewer or its network is, and a picture is
+// compressed only on request. The server has its own thread; the control loop only hands over a
+// reference to its newest frame.
 #pragma once
 
 #include <memory>

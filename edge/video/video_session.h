@@ -51,7 +51,8 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   void read_request();
   void read_body(std::uint32_t length);
   void take(std::span<const std::uint8_t> body);
-  // Ends the session after this time, unless it is called again before.
+  // Ends the session with the reason `otherwise` after `seconds`, unless the timer is set again or
+  // cancelled before.
   void expect_within(double seconds, End otherwise);
 
   boost::asio::ip::tcp::socket socket_;
