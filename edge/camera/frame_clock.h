@@ -30,7 +30,7 @@ class FrameClock {
  public:
   struct Config {
     StampAt stamp_at = StampAt::kExposureStart;
-    // from the end of the exposure to the arrival of the frame's first packet
+    // From the end of the exposure to the arrival of the frame's first packet.
     double readout_s = 0.010;
     double readout_sd_s = 0.010;
     ClockMap::Config map;

@@ -41,7 +41,7 @@ class ArrivalLine {
 
   std::int64_t origin_ns_ = 0;
   double span_from_s_ = 0.0;  // arrival at the start of the newest span
-  // the least delayed picture of each span; the newest span is still open
+  // The least delayed picture of each span; the newest span is still open.
   std::deque<Least> least_;
   double reference_s_ = 0.0;  // stamp of the newest picture at the last fit
   double offset_s_ = 0.0;     // arrival at reference_s_

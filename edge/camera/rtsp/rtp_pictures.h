@@ -59,7 +59,7 @@ class RtpPictures {
   std::int64_t ticks_ = 0;
   std::uint64_t number_ = 0;
   std::uint64_t lost_packets_ = 0;
-  // the decoder's newest picture is wrong, and so are the next ones until a key frame
+  // The decoder's newest picture is wrong, and so are the next ones until a key frame.
   bool broken_ = false;
 };
 

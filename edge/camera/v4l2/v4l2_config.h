@@ -23,7 +23,7 @@ struct V4l2Config : CameraConfig {
   // once.
   double row_readout_s = 0.0;
   double frozen_s = 20.0;  // reopen if the picture has not changed for this time; 0 for never
-  // reopen if no picture has come for this time plus two frame periods
+  // Reopen if no picture has come for this time plus two frame periods.
   double no_frame_timeout_s = 3.0;
   bool keep_raw = false;
   std::string element = "v4l2src";  // GStreamer's source element; tests replace it
