@@ -14,25 +14,25 @@
 
 namespace ols::camera {
 
-// Gray levels of an image, or of a target and its surround.
+// Gray levels of a target and its surround or, without a target, of the whole image.
 struct PictureLevels {
-  bool target = false;     // true: levels of a target and its surround; false: of the whole image
-  double mean = 0.0;       // of the surround if there is a target, otherwise of the whole image
-  double bright = 0.0;     // 95 % quantile; the larger one of target and surround
-  double saturated = 0.0;  // share of saturated pixels; the larger one of target and surround
+  bool target = false;     // true: the levels are those of a target and its surround
+  double mean = 0.0;       // mean of the surround or of the whole image
+  double bright = 0.0;     // 95 % quantile; with a target, the larger one of target and surround
+  double saturated = 0.0;  // share of saturated pixels; with a target, the larger one
 };
 
-// `gray`: 8-bit. The surround is a box of three times the width and height around the target's box,
-// without the target's box. If fewer than nine pixels of target or surround lie in the image, the
-// whole image is measured.
+// `gray`: 8-bit. The surround is the ring between the target's box and a box of three times its
+// width and height. If fewer than nine pixels of target or surround lie in the image, the whole
+// image is measured.
 PictureLevels measure_levels(const cv::Mat& gray, const std::optional<cv::Rect2d>& target_box);
 
 struct AutoExposureConfig {
   // Desired gray level of the brighter of target and surround.
   double bright_level = 200.0;
-  double mean_level = 110.0;  // desired mean of the image if there is no target
-  double dead_band = 0.12;    // relative errors of the light below this are ignored
-  double damping = 0.7;  // share of the error (of the light's logarithm) that one change corrects
+  double mean_level = 110.0;     // desired mean of the image if there is no target
+  double dead_band = 0.12;       // smaller relative errors of the light are ignored
+  double damping = 0.7;          // share of the light's logarithmic error that one change corrects
   double greatest_factor = 2.0;  // largest factor of one change
   int settle_frames = 4;  // number of frames to wait after a change until its effect is visible
 };

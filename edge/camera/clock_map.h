@@ -52,7 +52,7 @@ class ClockMap {
   std::optional<MappedTime> from_arrivals(std::int64_t device_ns, double delay_s) const;
 
   int latches() const { return static_cast<int>(latches_.size()); }
-  // Of the camera's clock, relative; > 0 if the clock is slow.
+  // Relative rate error of the camera's clock; > 0 if the clock is slow.
   double rate_error() const { return fit_.rate; }
 
  private:

@@ -28,8 +28,8 @@ class ExposureLog {
 
   double newest_s() const { return changes_.empty() ? first_s_ : changes_.back().exposure_s; }
 
-  // The exposure of the frame whose exposure began at `start_s`. If two are possible, the result is
-  // their mean.
+  // The exposure of the frame that began at `start_s`. If two are possible, the result is their
+  // mean.
   ExposureUsed at(double start_s) const;
 
  private:

@@ -19,7 +19,7 @@ struct FrameTime {
   StampSource source = StampSource::kCamera;
 };
 
-// Converts TAI, the time of a PTP slave, to the station's monotonic clock. Computed from the
+// Converts TAI, the time of a PTP slave, to the station's monotonic clock. It is computed from the
 // station's UTC and the leap seconds.
 struct TaiReference {
   std::int64_t monotonic_minus_tai_ns = 0;

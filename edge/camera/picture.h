@@ -20,7 +20,8 @@ enum class PixelFormat : std::uint32_t {
   kRGB8 = 0x02180014,
   kBGR8 = 0x02180015,
 };
-// "Mono8", "BayerRG8", "RGB8", ...
+// The format for a GenICam name such as "Mono8", "BayerRG8" or "RGB8"; nullopt if it is not
+// supported.
 std::optional<PixelFormat> pixel_format(std::string_view genicam_name);
 // The GenICam name for a PFNC code; for an unsupported code, the code in hexadecimal.
 std::string pixel_format_name(std::uint32_t code);

@@ -1,6 +1,6 @@
 // Computes the pause before the next attempt to connect to a camera. The pause begins with kFirst_s
 // and doubles with each attempt, up to kLongest_s. After a connection that has delivered pictures
-// for kHealthy_s, it begins anew. Pure.
+// for kHealthy_s, the pause is kFirst_s again. Pure.
 #pragma once
 
 #include <algorithm>

@@ -32,7 +32,7 @@ struct ReceivedFrame {
   std::uint64_t id = 0;  // the camera's frame number
   bool complete = false;
   bool overtaken = false;                 // a newer frame is already waiting
-  RawPicture picture;                     // valid as long as this buffer
+  RawPicture picture;                     // valid as long as the buffer is
   std::optional<std::int64_t> device_ns;  // the camera's own time stamp
   double arrival_s = 0.0;  // CLOCK_MONOTONIC at the arrival of the frame's first packet
 };
@@ -64,7 +64,7 @@ class AravisDevice {
   std::optional<LatchSample> latch();
   // Whether the camera still answers.
   bool answers();
-  void trigger();  // starts an exposure by a command of the software
+  void trigger();  // starts one exposure by a software command
 
   // The camera's current exposure and gain, and their limits.
   const ExposureSetting& exposure() const { return exposure_; }

@@ -14,12 +14,12 @@ namespace ols::camera {
 // a helper process that searches for plugins.
 void start_gstreamer();
 
-// The caps to set on an appsink whose samples go to gst_picture(). In all of their formats, the
-// first plane is the gray picture. With colour, only one format is allowed (I420).
+// The caps that an appsink must have if its samples are passed to gst_picture(). In all of their
+// formats, the first plane is the gray picture. With colour, only one format is allowed (I420).
 const char* gst_formats(bool with_colour);
 
 struct GstPicture {
-  cv::Mat gray;  // 8-bit, in memory of its own
+  cv::Mat gray;  // 8-bit, a copy
   cv::Mat bgr;   // empty without colour
 };
 // Copies the picture out of a sample. nullopt if the sample has no picture in memory.

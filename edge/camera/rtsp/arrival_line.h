@@ -23,8 +23,8 @@ class ArrivalLine {
   // sd_s is the scatter of the least delayed pictures about the line. nullopt before the first
   // add().
   std::optional<MappedTime> at(std::int64_t device_ns) const;
-  // Seconds of the station's clock per second of the camera's stamps. In the first seconds, about 1
-  // is assumed unless the arrivals clearly show another rate.
+  // Seconds of the station's clock per second of the camera's stamps. In the first seconds, a rate
+  // of about 1 is assumed unless the arrivals clearly show another one.
   double rate() const { return rate_; }
   // Whether rate() has been measured over at least eight seconds.
   bool knows_rate() const;

@@ -5,8 +5,8 @@
 // own clock. But the first report may come after ten seconds or never, and the camera's clock may
 // be wrong: set to local time, never set, drifting. The arrivals of the pictures are always
 // available, but they are late by a delay that is only roughly known. The reports are used as long
-// as the delay from their times to the arrivals is credible. This delay is learnt; if the reports
-// cease, it is subtracted from the arrivals, and the times hardly change.
+// as the delay that they imply is credible. This delay is learnt. If the reports cease, the learnt
+// delay is subtracted from the arrivals, and the times hardly change.
 #pragma once
 
 #include <cstdint>

@@ -15,8 +15,8 @@ struct V4l2Config : CameraConfig {
   std::string device;  // "/dev/v4l/by-id/..."
   V4l2Format format = V4l2Format::kMjpeg;
   std::string controls;  // "exposure_auto=1,exposure_time_absolute=50"
-  // The time from mid-exposure to the driver's stamp, and its 1-sigma. It is a constant of the
-  // camera. It is often a considerable part of a frame period, because the driver stamps the
+  // The time from mid-exposure to the driver's stamp, and its 1-sigma. This time is a constant of
+  // the camera. It is often a considerable part of a frame period, because the driver stamps the
   // picture's arrival.
   double delay_s = 0.02, delay_sd_s = 0.02;
   // Time from the exposure of the first row to that of the last row; 0 if all rows are exposed at
