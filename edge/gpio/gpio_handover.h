@@ -38,7 +38,8 @@ class GpioHandover {
   // The next four may be called from any thread; none of them waits for the device.
   void show(LedPattern pattern);
   void trigger();  // sends a pulse on trigger_line
-  // Also true while the level has not been read yet. False without a stop_line.
+  // Whether the emergency stop counts as pressed. True also while its level has not been read yet;
+  // false without a stop_line.
   bool stop_pressed() const;
   device::DeviceReport report() const;
 

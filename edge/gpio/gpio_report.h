@@ -20,7 +20,8 @@ struct GpioFacts {
   std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
 };
 
-// Also true while the level has not been read yet. False without a stop_line.
+// Whether the emergency stop counts as pressed. True also while its level has not been read yet;
+// false without a stop_line.
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts);
 
 device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);
