@@ -18,9 +18,9 @@ enum class Reference {
   kTrusted,
 };
 
-// The reason why a reference is in doubt. It is trusted again after a complete homing, or after an
-// operator's order reference-ok, if the mount accepts that order. A trusted reference has no
-// ReferenceDoubt.
+// The reason why a reference is in doubt. The reference is trusted again after a complete homing,
+// or after an operator's order reference-ok, if the mount accepts that order. A trusted reference
+// has no ReferenceDoubt.
 struct ReferenceDoubt {
   // A homing was interrupted, or is still in progress. An interrupted homing is not repeated
   // automatically.

@@ -14,7 +14,7 @@
 
 namespace ols::onvif {
 
-// Its text is, for example, "GetStatus: no Position".
+// The text of an AnswerError is, for example, "GetStatus: no Position".
 struct AnswerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
