@@ -27,7 +27,8 @@ struct PtuConfig {
   std::string device;    // serial device, for example /dev/ttyUSB0
   int baud = 38400;      // baud rate to use
   int line_baud = 9600;  // baud rate of a unit that was just switched on
-  // Interval of the poll cycles. Each queries both positions and contains the servo's commands.
+  // Interval of the poll cycles. Each cycle queries both positions and contains the servo's
+  // commands.
   double poll_interval_s = 0.025;
   // After this time without a usable reply, the link counts as lost, and the driver starts again.
   double reply_timeout_s = 0.5;

@@ -1,4 +1,4 @@
-// Checks reported positions. Replies have no checksum, so that a position with a wrong digit may
+// Checks reported positions. Replies have no checksum; a position with a wrong digit may therefore
 // look plausible. Pure.
 //
 // Each position is read twice in a poll cycle. The two readings may differ only by the motion
