@@ -27,7 +27,8 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
     kUncoded,    // the viewer requested a picture that cannot be coded
   };
   struct Callbacks {
-    // Called for each request. Its receiver must call answer(), now or later.
+    // Called for each request. The owner must then answer the request with answer(), at once or
+    // later.
     std::function<void(VideoSession&)> asked;
     // Called once, when the connection ends; no callback is called after this one.
     std::function<void(VideoSession&, End)> ended;
