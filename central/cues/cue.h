@@ -1,5 +1,5 @@
-// A target reported from outside the site. Stations may be led to it; it never changes a position
-// that the fusion computes. Pure.
+// A cue: a target reported from outside the site. Stations may be led to a cue, but a cue never
+// changes a position that the fusion computes. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace ols::fusion {
 struct Cue {
   std::string id, label;
   std::int64_t utime_us = 0;  // creation time of its message
-  std::int64_t state_us = 0;  // the instant at which position and velocity hold
+  std::int64_t state_us = 0;  // the instant of position and velocity
   Geodetic place;
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
   Eigen::Vector3d velocity_enu_m_s = Eigen::Vector3d::Zero();
@@ -30,7 +30,7 @@ struct CueConfig {
   double range_m = 20e3;      // largest distance from the nearest station
   double max_age_s = 10.0;    // largest time since the source measured the position
   double most_sd_m = 2000.0;  // stations do not search for a less certain cue
-  // 1-sigma of the assumed acceleration, from which the growth of the uncertainty follows.
+  // 1-sigma of the assumed acceleration. It determines how fast the uncertainty grows.
   double acceleration_sd_m_s2 = 3.0;
   int most = 32;  // largest number of cues at the same time
 };

@@ -1,4 +1,4 @@
-// Cues: their age, whether an operator allowed them, and the target found at each.
+// All current cues: the age of each, the operator's decision on it, and the target found there.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +25,11 @@ struct CueHealth {
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
 };
 
-// Whether the target is at the cue's position, within the 99.9 % region of both uncertainties.
+// Whether the target is at the cue's position: their difference is within the 99.9 % region of both
+// uncertainties together.
 bool is_there(const CueAim& aim, const Track& track, std::int64_t now_us);
 
-// The report on one cue.
+// The report on one cue. target_id: the target found there; 0 if none.
 CueHealth health_of(const CueAim& aim, CueState state, std::int64_t target_id, std::int64_t now_us);
 
 class CueRegistry {
@@ -42,7 +43,7 @@ class CueRegistry {
   bool order(const std::string& id, bool allow);
   // Removes cues that their sources no longer send.
   void end_silent(std::int64_t present_us);
-  // Finds the target at each cue. Does nothing if it was called only recently.
+  // Finds the target at each cue. Does nothing within a short time of its last call.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
 
   // The cues to which stations are to be led: those that are allowed and have no target yet.
@@ -53,7 +54,7 @@ class CueRegistry {
  private:
   struct Live {
     Cue cue;
-    // When the cue was last received, on the time scale of `present_us`
+    // When the cue was last received, on the clock of `present_us`.
     std::int64_t heard_us = 0;
     std::optional<bool> allowed;  // the operator's decision
     std::int64_t target_id = 0;

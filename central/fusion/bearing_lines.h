@@ -1,6 +1,6 @@
 // Bearing-only tracks: lines of sight to objects that a station follows and no target explains. A
-// tracklet is not a bearing-only track, because nobody has designated its object. But if the site's
-// hand-over is automatic, stations are also led along the lines of tracklets. Pure.
+// tracklet is not a bearing-only track, because nobody has designated its object. But if objects of
+// unknown class lead stations (handover_policy.h), the lines of tracklets are included. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace ols::fusion {
 
-// A short-lived view of the tracks and monitors that it was made from.
+// Keeps references to the tracks and the monitor. Use it only before they change.
 class BearingLines {
  public:
   BearingLines(const TrackManager& tracks, const PointingMonitor& pointing,
@@ -24,14 +24,14 @@ class BearingLines {
 
   // Stations that have recently sent an unassociated bearing and are not quarantined.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
-  // The newest bearing of each of the station's tracks that no target takes, sorted by track id
-  // (most trackers assign ids in ascending order). Returns only the first four, unless tracklets
-  // are included.
+  // For each local track of the station that belongs to no target: its newest bearing. Sorted by
+  // track id, because most trackers assign ids in ascending order: the oldest tracks come first.
+  // Without tracklets, only the first four are returned.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
-  // The newest bearing of a station that stations() has returned.
+  // The newest bearing of one of the stations that stations() returns.
   const BearingMeasurement* newest_of(const std::string& station) const;
-  // Whether a target has recently used a bearing of the same object.
+  // Whether a target has recently used a bearing of the same local track.
   bool is_taken(const BearingMeasurement& of, std::int64_t epoch_us) const;
   std::optional<BearingOnly> at(const BearingMeasurement& newest, std::int64_t epoch_us) const;
 

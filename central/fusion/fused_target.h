@@ -27,22 +27,23 @@ struct BearingOnly {
 
 struct FusedTarget {
   std::int64_t utime_us = 0;  // the epoch
-  // 0 if there is no object yet. A target keeps the id of its bearing-only track.
+  // 0 if the object has no identity yet. A bearing-only track that becomes a target keeps its id.
   std::int64_t target_id = 0;
   TrackState state = TrackState::kTentative;
   std::string estimator;  // name of the estimator
   Estimate estimate;
   std::vector<ContributingStation> stations;  // sorted by id
-  std::optional<BearingOnly> bearing_only;    // used instead of a position
+  std::optional<BearingOnly> bearing_only;    // set if there is no position
   Appearance appearance;
   std::optional<HeightAboveGround> above_ground;  // set if position and ground are known
 };
 
 struct FusionOutput {
-  BearingRefusal refusal = BearingRefusal::kNone;  // the fate of the bearing
+  BearingRefusal refusal = BearingRefusal::kNone;  // why the bearing was not used
   // All confirmed objects of one epoch, then the bearing-only tracks (kBearingOnly), each group
-  // sorted by id. If there are none: one target that states the reason. With many objects this is
-  // only a part of the epoch; the rest follows with the next bearings.
+  // sorted by id. If there are none: one entry without a target, whose estimate states the reason.
+  // With many objects, the vector contains only a part of the epoch; the rest follows with the next
+  // bearings.
   std::vector<FusedTarget> targets;
   std::vector<FusedTarget> targets_paper;  // the paper's estimates of the same objects
   std::vector<Slew> slews;

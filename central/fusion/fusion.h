@@ -1,8 +1,8 @@
-// The fusion: takes bearings, and returns targets and slews. Pure: its time is that of the
-// messages, so the same bearings in the same order give the same targets to the last digit. It does
-// not wait for slow stations: targets are computed once a period has passed and enough stations
-// have delivered (epoch_rule.h). With many targets or stations, the work of a period is spread over
-// several bearings.
+// The fusion: takes bearings, and returns targets and slews. Pure: the only clock is the time
+// stamps of the messages. The same bearings in the same order therefore give the same targets to
+// the last digit. The fusion does not wait for slow stations: it computes targets once a period has
+// passed and enough stations have delivered (epoch_rule.h). With many targets or stations, the work
+// of a period is spread over several bearings.
 //
 // Admission decides which bearings are used. The tracks decide to which target each bearing
 // belongs. The schedules decide what is published, and when.
@@ -28,7 +28,7 @@
 namespace ols::fusion {
 
 struct FusionConfig {
-  std::string estimator = "filter";  // name of the targets' estimator, for make_estimator()
+  std::string estimator = "filter";  // estimator of the targets: a name for make_estimator()
   double rate_hz = 15.0;             // each target is published at most this often
   // Largest number of targets for which the paper's estimate is also computed; 0 for none.
   int paper_targets = 8;
@@ -50,21 +50,23 @@ class Fusion {
 
   // Takes a station's status, so that the station can be slewed before its first bearing.
   void know_station(const std::string& station, const StationTraits& traits);
-  // Takes a part of the skyline that a station has seen. Stations that are not known yet are
-  // ignored: they repeat it.
+  // Takes a part of the skyline that a station has seen. Ignored if the station is not known yet:
+  // stations send their skylines repeatedly.
   void know_skyline(const SkylineSector& sector);
-  // Notes only whether a station may be slewed; for stations without a position.
+  // Notes whether a station may be slewed. For stations whose status contains no position; the
+  // others use know_station().
   void allow_slews(const std::string& station, bool allowed);
   // Processes one bearing. Call it in order of arrival.
   FusionOutput add(const BearingMeasurement& measurement);
 
-  // Takes a target reported from outside. It may cause slews, but nothing else. present_us: this
-  // host's UTC; in a replay, the message's time.
+  // Takes a target reported from outside. A cue may cause slews, but it changes no target.
+  // present_us: this host's UTC; in a replay, the message's time.
   std::vector<Slew> add(const Cue& cue, std::int64_t present_us);
   // Takes an operator's decision on a cue, or on a target by its number (target_named()). Returns
-  // false if there is no such cue or target, or if the site uses neither cues nor hand-over.
+  // false if there is no cue or target of this name, or if the site uses neither cues nor
+  // hand-over.
   bool allow_cue(const std::string& id, bool allow);
-  // Sets the policy for targets that only detectors have found: which of them lead stations.
+  // Sets the policy that decides which of the targets found only by detectors lead stations.
   void set_handover(HandoverMode mode) { handover_.set_mode(mode); }
   HandoverMode handover() const { return handover_.mode(); }
   void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }
@@ -75,8 +77,8 @@ class Fusion {
   const LiveTracks& tracks() const { return tracks_; }
 
  private:
-  // Returns the fate of an admitted bearing. While a bearing waits for the others of its image, its
-  // fate is not known yet.
+  // Associates an admitted bearing, and returns why it was not used. kNone while the bearing waits
+  // for the other bearings of its image.
   BearingRefusal take(const BearingMeasurement& measurement, std::vector<ImageBearings>& used);
   std::vector<BearingRefusal> associate(const ImageBearings& image);
   void note_unassociated(const BearingMeasurement& measurement, const Association& result);

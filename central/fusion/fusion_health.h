@@ -32,9 +32,9 @@ struct StationHealth {
   std::string station;
   std::int64_t bearings = 0;  // number of admitted bearings
   double rate_hz = 0.0;
-  double age_s = 0.0;           // "now" minus its newest stamp
+  double age_s = 0.0;           // message time now, minus its newest stamp
   double residual = 0.0;        // recent RMS of the normalised residuals; NaN if there are none
-  double clock_offset_s = 0.0;  // offset of its stamps from the median; NaN if there are none
+  double clock_offset_s = 0.0;  // its stamps minus the median of all stations; NaN if unknown
   Alarm quarantine{};           // why its bearings are not used; empty if they are used
   StationBiasReport finding{};
   StatedCalibration calibration{};
@@ -43,7 +43,7 @@ struct StationHealth {
 struct FusionHealth {
   std::int64_t now_us = 0;
   std::vector<StationHealth> stations;     // sorted by id
-  std::map<std::string, double> counters;  // they only increase
+  std::map<std::string, double> counters;  // never decrease
   std::vector<Alarm> alarms;               // current ones
   std::string last_error;
   std::vector<CueHealth> cues{};  // sorted by id

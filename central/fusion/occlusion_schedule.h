@@ -17,15 +17,15 @@
 
 namespace ols::fusion {
 
-// A notice to one station about the target to which it is allocated.
+// A notice to one station about the target to which it is led.
 struct OcclusionNotice {
   std::string station;
   std::int64_t utime_us = 0;  // message time at creation
   std::int64_t target_id = 0;
   double hidden = 0.0;  // the probability that the target is hidden at that time
-  // When and where the target comes out, counted from utime_us. Empty: not within the prediction.
+  // When (after utime_us) and where the target reappears. Empty: not within the predicted time.
   std::optional<Emergence> exit{};
-  double holds_s = 0.0;  // 0: the last notice no longer holds
+  double holds_s = 0.0;  // how long the notice holds; 0 withdraws the last notice
 };
 
 class OcclusionSchedule {
@@ -34,7 +34,7 @@ class OcclusionSchedule {
   explicit OcclusionSchedule(std::shared_ptr<const land::Surface> surface)
       : surface_(std::move(surface)) {}
 
-  // Plans notices for the stations that get these slews.
+  // The notices for the stations that get these slews.
   std::vector<OcclusionNotice> plan(std::int64_t now_us, const std::vector<Slew>& slews,
                                     const StationRegistry& stations,
                                     const std::vector<Track>& tracks, const SeenSkylines& skylines);
@@ -44,7 +44,7 @@ class OcclusionSchedule {
  private:
   struct Told {
     std::unique_ptr<LandHorizon> horizon;
-    std::int64_t exit_us = 0;  // until then the last notice is withdrawn if it proves wrong
+    std::int64_t exit_us = 0;  // until then, a wrong notice must be withdrawn
   };
   LandHorizon& horizon_of(Told& told, const Eigen::Vector3d& camera_ecef) const;
 

@@ -1,19 +1,18 @@
 // Decides where each station is to point when the command takes effect. Pure.
 //
 //  - A station is led to the predicted position of the target to which it is allocated
-//    (station_allocation.h). While it does not see that target, and the direction is less certain
-//    than the field of view, the station searches along a spiral over the uncertainty, from the
-//    inside outwards.
-//  - If no position is known but one station sees an object, the others search along that
+//    (station_allocation.h). If it does not see that target, and the error of the predicted
+//    direction may exceed the field of view, the station searches on a spiral over the uncertain
+//    region, from the inside outwards.
+//  - If one station sees an object whose position is unknown, other stations search along that
 //    station's ray (line_search.h).
 //  - An allowed cue from outside (central/cues/) is an additional place for stations that see
 //    nothing. A station that would otherwise join a crowded target goes to the cue instead.
-//  - A station that cannot be commanded (it is stopped, or under operator control) gets no slew,
-//    because the operator has precedence over the fusion. The station itself would refuse the slew,
-//    too.
+//  - A station that is stopped or under operator control gets no slew, because the operator has
+//    precedence over the fusion. The station itself would refuse the slew, too.
 //
-// Commanded rates stay within the rate limit. A slew may jump to any new direction: the station
-// turns there at its own maximum rate. Every slew contains its lease.
+// Commanded rates stay within the rate limit. The direction of a slew may differ from the last one
+// by any angle: the station turns there at its own maximum rate. Every slew contains its lease.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,11 +36,11 @@ namespace ols::fusion {
 
 struct SlewConfig {
   double rate_hz = 10.0;
-  double act_s = 0.1;         // time from the command to its effect: transport, servo cycle
+  double act_s = 0.1;         // from the command to its effect: transport, servo cycle
   double lease_s = 0.5;       // the station halts after this time without a newer command
   double coast_s = 2.0;       // a target is predicted for this long after its last bearing
   double view_share = 0.5;    // step of a search, relative to the field of view
-  double dwell_s = 0.4;       // time at each point
+  double dwell_s = 0.4;       // how long a search stays at each of its points
   double search_sigma = 2.5;  // radius of the spiral, in sigmas
   LineSearchConfig line{};    // for a search along a ray
 };
@@ -55,27 +54,29 @@ struct Slew {
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;
-  // In a search along a ray: direction of the ray there.
+  // In a search along a ray: the unit vector of the ray on the tangent plane. Zero otherwise. A cue
+  // that is to be found by its motion, in any direction, has (1, 0).
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double lease_s = 0.0;
-  std::int64_t let_go_track_id = 0;  // what its tracker follows and lets go of; 0: nothing
+  std::int64_t let_go_track_id = 0;  // the local track that its tracker is to let go of; 0: none
 };
 
-// The slew that points a station's camera at a predicted state. Its uncertainty follows from the
-// uncertainties of both positions. The caller sets station, times and target.
+// The slew that points a station's camera at a target's predicted state. The slew's uncertainty
+// combines those of the target's position and of the station's position. The caller sets the
+// station, the times and the target.
 Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config);
 
 // The k-th point (k >= 0) of a search, on an Archimedean spiral from the centre outwards, in units
-// of a step. Each point is about one unit from the previous point and from the inner turn, and
-// covers a unit area.
+// of a step. Each point is about one unit from the previous point and from the next inner turn of
+// the spiral. Each point covers a unit area.
 Eigen::Vector2d spiral_point(int k);
 
 struct SlewStation {
   std::string station;
   StationTraits traits;
   std::int64_t follows = 0;          // the target that it sees; 0 if none
-  bool stares = false;               // the station is never led
-  std::int64_t let_go_track_id = 0;  // what its tracker follows and lets go of; 0: nothing
+  bool stares = false;               // by configuration, the station is never led
+  std::int64_t let_go_track_id = 0;  // the local track that its tracker is to let go of; 0: none
   bool is_led() const { return traits.commandable && !stares; }
 };
 
@@ -83,23 +84,23 @@ struct SlewStation {
 struct SlewRound {
   std::int64_t now_us = 0;
   std::map<std::int64_t, int> seen_by{};  // number of stations that see each target
-  // Priority of each target; 1 if absent; a target with 0 leads no station.
+  // Priority by target id. A target that is absent has 1; a target with 0 leads no station.
   std::map<std::int64_t, double> priority{};
   std::set<std::int64_t> wanted{};                // targets that an operator wants
   std::set<std::int64_t> targets{};               // targets to which stations may be led
-  Allocation allocation{};                        // of the stations to the targets
+  Allocation allocation{};                        // which station goes to which target
   std::set<std::string> bearing_only_stations{};  // stations that have a bearing-only track
-  std::set<std::string> busy{};               // those of them whose own tracker follows the object
-  std::optional<CueRay> ray{};                // the ray along which stations search
-  LinePrior prior{};                          // where on the ray the target is expected
+  std::set<std::string> busy{};                   // those whose own tracker follows the object
+  std::optional<CueRay> ray{};                    // the ray along which stations search
+  LinePrior prior{};                              // the range at which the target is expected
   std::map<std::string, LineShare> shares{};  // shares of the stations that search along the ray
   std::vector<CueAim> cues{};                 // cues to which stations may be led
   std::string cue_on_ray{};                   // id of the cue near which the ray passes
   std::map<std::string, int> led_to{};        // number of stations led to each cue
 };
 
-// The newest of one station's bearings, of its detector or of its tracker; null if there is none
-// within the last second.
+// The newest bearing from one station's detector (is_tracklet) or from its tracker; null if there
+// is none within the last second. `bearings`: those of the station, in order of time.
 const BearingMeasurement* newest_of(const std::vector<BearingMeasurement>& bearings,
                                     bool is_tracklet, std::int64_t now_us);
 // The newest bearing of this target from the station's tracker; null if there is none within the
@@ -111,12 +112,12 @@ class SlewPlanner {
  public:
   explicit SlewPlanner(const SlewConfig& config = {}) : config_(config) {}
 
-  // Decides, for the round, to which target each station is led. Confirmed `tracks` count, and
-  // coasting ones for coast_s.
+  // Decides to which target each station is led in this round. Stations may be led to confirmed
+  // tracks, and to tracks that have coasted for at most coast_s.
   void allocate(SlewRound& round, std::span<const SlewStation> stations,
                 const std::vector<Track>& tracks) const;
-  // Plans for all or some of the stations, and counts in the round how many are sent to each
-  // target.
+  // Plans the slews of these stations (all, or a part of them), and counts in the round how many
+  // stations are led to each target.
   std::vector<Slew> plan(SlewRound& round, std::span<const SlewStation> stations,
                          const std::vector<Track>& tracks);
   void forget(const std::string& station) { searches_.erase(station); }
@@ -125,9 +126,9 @@ class SlewPlanner {
  private:
   struct Search {
     std::int64_t target_id = 0;  // the target to which the station is led
-    std::string ray;  // without a target: the ray that is searched (STATION/TRACK), or a cue
+    std::string ray;             // without a target: the searched ray (STATION/TRACK) or cue
     std::int64_t begun_us = 0;
-    std::optional<LineSweep> sweep{};  // sweep along that ray
+    std::optional<LineSweep> sweep{};  // the sweep along that ray
     std::optional<double> turn_s{};    // time that the unit needs to turn to a cue
     std::string cue{};                 // the id of that cue
     double searched_s(std::int64_t now_us) const;
@@ -136,7 +137,7 @@ class SlewPlanner {
                                        const std::vector<Track>& tracks) const;
   const Track* target_for(SlewRound& round, const SlewStation& station,
                           const std::vector<const Track*>& targets);
-  // Returns null if there is no cue for this station.
+  // The cue to which the station is led; null if there is none.
   const CueAim* cue_for(const SlewRound& round, const SlewStation& station, const Track* target);
   void count_searches(SlewRound& round);
   std::int64_t effect_of(const StationTraits& station, std::int64_t now_us) const;

@@ -1,5 +1,6 @@
-// Plans slews in rounds over all stations. Each bearing triggers the slews of a part of the
-// stations, so that even the slews of a thousand stations delay no bearing. Pure.
+// Plans slews in rounds. One round passes through all stations. Each bearing triggers only the
+// slews of the next few stations, because the slews of a thousand stations at once would delay the
+// bearing. Pure.
 #pragma once
 
 #include <cstdint>
@@ -51,24 +52,24 @@ class SlewSchedule {
   void find_what_is_let_go(const std::vector<Track>& tracks, const HandoverPolicy& handover);
   // A station, and its own id of the tracklet.
   using TrackletName = std::pair<std::string, std::int64_t>;
-  // How long the line of one object is searched at most.
+  // The line of one object is searched for at most this long.
   static constexpr double kSearched_s = 10.0;
   struct Tracklet {
     std::int64_t noted_us = 0, seen_us = 0;
-    double searched_s = 0.0;  // how long stations have been led along its line
+    double searched_s = 0.0;  // how long its line has been searched
     // The target to which it last belonged, if that target leads stations; otherwise 0.
     std::int64_t target = 0;
-    double stays_s = kSearched_s;  // how long a tracker stays with the object after noted_us
+    double stays_s = kSearched_s;  // a tracker stays with the object this long after noted_us
   };
   const BearingMeasurement* line_of(const std::string& station,
                                     const std::vector<const BearingMeasurement*>& own);
-  // How often the line of this object has had its turn to be searched; nullopt: it must not be
+  // How many turns of a search (5 s each) this object's line has had. nullopt: the line must not be
   // searched now.
   std::optional<int> turn_of(const TrackletName& tracklet);
-  // The sort key of a line of sight; the line with the smallest key is searched. In order: false if
-  // an operator designated the object; how many turns this object's line has had; whether the
-  // station that sees it is itself led; false if this station's line is the one that is being
-  // searched; the station.
+  // The sort key of a line of sight; the line with the smallest key is searched. Its fields, in
+  // order: false if an operator designated the object; how many turns of a search its line has had;
+  // whether the station that sees it may be led; whether this station's line is a new one, not the
+  // one of the previous round; the station.
   using LineKey = std::tuple<bool, int, bool, bool, std::string>;
   struct SearchedLine {
     BearingMeasurement newest;

@@ -1,6 +1,6 @@
-// Determines the order in which an epoch is published: targets, then bearing-only tracks, then the
-// paper's estimates. Each bearing triggers a part, so that even many targets delay no bearing.
-// Pure.
+// Publishes the outputs of an epoch in this order: targets, then bearing-only tracks, then the
+// paper's estimates. Each bearing triggers only a part of them, because many targets at once would
+// delay the bearing. Pure.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct TargetScheduleConfig {
   double rate_hz = 15.0;             // largest number of epochs per second
   // Largest number of targets for which the paper's estimate is also computed; 0 for none.
   int paper_targets = 8;
-  double give_up_s = 2.0;  // older pending outputs are discarded
+  double give_up_s = 2.0;  // unpublished outputs of an epoch older than this are discarded
   EstimatorConfig estimators{};
   LandUse land{};
 };

@@ -1,5 +1,5 @@
 // Associates the bearings of an image with tracks, and reports the station's pointing errors to the
-// monitor. Used both live and offline. Pure.
+// pointing monitor. The live fusion and the offline fusion both use it. Pure.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ struct Associated {
   Association result;
   bool explained = false;    // a track explains the bearing
   bool quarantined = false;  // the station's pose is not credible
-  bool newly_so = false;     // the quarantine began with this bearing
+  bool newly_so = false;     // the quarantine begins with this bearing
 };
 
 // Takes the bearings of one image of a station. Returns their fates in the same order.

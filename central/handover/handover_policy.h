@@ -1,12 +1,12 @@
 // Decides which targets lead stations. A target that an operator has designated in a picture always
-// leads. For a target that only detectors have found, the site's policy and the operator decide: it
-// is proposed, allowed or dismissed. Pure.
+// leads. A target that only detectors have found is proposed, allowed or dismissed; the site's
+// policy and the operator decide. Pure.
 //
 //  - The policy for targets found by detectors is one of three. off: they lead no station. propose:
 //    each waits for an operator. automatic: those of the configured `classes` lead at once, and the
 //    others wait for an operator.
-//  - An operator's decision takes effect at once, also for designated targets, and lasts until the
-//    target loses its number. Designating a dismissed target takes the dismissal back.
+//  - An operator's decision takes effect at once, and also applies to designated targets. It lasts
+//    until the target loses its number. Designating a dismissed target takes the dismissal back.
 //  - If a target is lost, the decision on it passes to the first new target that appears at its
 //    predicted position.
 //  - A lost target that led stations is searched for at its predicted position, with growing
@@ -33,13 +33,13 @@ std::optional<HandoverMode> handover_mode_named(std::string_view name);
 
 struct HandoverConfig {
   HandoverMode mode = HandoverMode::kOff;
-  // Classes whose objects lead stations without an operator's decision, in mode kAutomatic.
+  // In mode kAutomatic, objects of these classes lead stations without an operator's decision.
   std::vector<ObjectClass> classes{ObjectClass::kUnknown, ObjectClass::kDrone, ObjectClass::kBird,
                                    ObjectClass::kAircraft, ObjectClass::kOther};
   std::vector<std::string> staring{};  // stations that are never led
   double seek_s = 10.0;                // how long a lost target is searched for
   double remember_s = 10.0;            // how long the decision on a lost target is kept
-  // 1-sigma of the assumed acceleration, by which a lost target's uncertainty grows.
+  // 1-sigma of the assumed acceleration. It determines how fast a lost target's uncertainty grows.
   double acceleration_sd_m_s2 = 3.0;
 };
 
@@ -47,30 +47,32 @@ class HandoverPolicy {
  public:
   explicit HandoverPolicy(const HandoverConfig& config) : config_(config) {}
 
-  // Takes note of the present targets. Does nothing if it was called only recently.
+  // Takes note of the present targets. Does nothing within 0.1 s of its last call.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
   // Changes the mode. Operators' decisions remain in force.
   void set_mode(HandoverMode mode) { config_.mode = mode; }
   HandoverMode mode() const { return config_.mode; }
-  // Takes an operator's decision. Returns false if there is no such target, or for allowing a
-  // target while the mode is off. Targets that were allowed before lead again when the mode is on.
+  // Takes an operator's decision. Returns false if the target is unknown, or if it is allowed while
+  // the mode is off. Targets that were allowed before the mode was switched off lead again when it
+  // is switched on.
   bool order(std::int64_t target_id, bool allow);
-  // The target's priority when stations are allocated; 0 if it leads no station. It is the
-  // probability that it exists, times the probability that it is of a class that leads. If an
-  // operator has designated or allowed it, the second factor is 10.
+  // The target's priority when stations are allocated; 0 if it leads no station. The priority is
+  // the probability that the target exists, times the probability that its class is one that leads
+  // stations. If an operator has designated or allowed the target, the second factor is 10.
   double priority(const Track& track) const;
-  // Whether an operator has designated or allowed it. If so, its trackers are not taken away from
-  // it.
+  // Whether an operator has designated or allowed the target. The stations that track such a target
+  // are not led elsewhere.
   bool is_wanted(std::int64_t target_id) const;
-  // Whether trackers are to let go of it: an operator has dismissed it, or the policy led stations
-  // there while its class was unknown, and the class turned out to be one that leads none.
+  // Whether trackers are to let go of the target. Either an operator has dismissed it; or the mode
+  // is automatic, the target has led stations, and its class now turns out to be one that leads
+  // none.
   bool is_let_go(std::int64_t target_id) const;
   bool is_dismissed(std::int64_t target_id) const;
-  // Lost targets, as places at which stations are to look.
+  // Lost targets at whose predicted positions stations are to search.
   std::vector<CueAim> lost(std::int64_t now_us) const;
-  // Targets that were found by detectors or judged by an operator, each under its number. The
-  // states are those of a cue: waiting (proposed), found (it leads stations), searched (lost and
-  // being searched for), forbidden (dismissed). Empty if the mode is off.
+  // Targets that detectors have found or on which an operator has decided, each under its number.
+  // The states are those of a cue: waiting (proposed), found (it leads stations), searched (lost
+  // and being searched for), forbidden (dismissed). Empty if the mode is off.
   std::vector<CueHealth> health(std::int64_t now_us) const;
   // Whether an object of this class leads stations without an operator's decision.
   bool leads_by_itself(ObjectClass object_class) const;
@@ -83,12 +85,12 @@ class HandoverPolicy {
   struct Known {
     CueAim last;  // its last state
     ObjectClass object_class = ObjectClass::kUnknown;
-    bool is_designated = false;  // an operator has started a tracker on it
+    bool is_designated = false;  // an operator has designated it in a picture
     bool has_led = false;
     bool is_live = false;           // there is a track of this target
     std::optional<bool> allowed{};  // the operator's decision
-    // The trackers that followed it when it was dismissed, each as station and track id. Empty
-    // until the tracks have been looked at after the dismissal.
+    // The trackers that followed the target when it was dismissed (station, track id). nullopt
+    // until the first settle() after the dismissal.
     std::optional<std::set<std::pair<std::string, std::int64_t>>> dismissed{};
   };
   void note(const Track& track, std::int64_t now_us);

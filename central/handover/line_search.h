@@ -1,12 +1,13 @@
-// Plans a station's search along another station's line of sight, for a target without a position.
-// Pure.
+// Plans a station's search along another station's line of sight, for a target whose position is
+// unknown. Pure.
 //
-// The target is most likely near the stations. The search is therefore centred on the foot, the
-// point of the line nearest to their centre. The searching stations divide the line among them,
-// into parts of equal probability. Each station begins in its own part. From there it sweeps
-// outwards, away from the foot, then to and fro between the ends of the line. The sweep is slow
-// enough that a target can be recognised while it crosses the field of view. It begins when the
-// unit has had time to reach the start.
+// The target is most likely near the stations. The most likely range is therefore that of the foot,
+// the point of the line nearest to the centre of the stations (SlewSchedule::expect_range()); the
+// target's apparent size or a cue may change it. The searching stations divide the line into parts
+// of equal probability. Each station begins in its own part. It sweeps outwards first, away from
+// the most likely range, then to and fro between the ends of the line. The sweep is slow enough for
+// a tracker to recognise a target that crosses the field of view. The sweep begins when the unit
+// has had time to turn to its start.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +20,7 @@
 
 namespace ols::fusion {
 
-// A ray on which there is a target at an unknown range.
+// A ray to a target at an unknown range.
 struct CueRay {
   std::string station;
   std::int64_t track_id = 0;  // the station's own id
@@ -28,7 +29,7 @@ struct CueRay {
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
   Eigen::Vector3d rate_ecef = Eigen::Vector3d::Zero();  // [rad/s] rate of the direction
   double sd_rad = 0.0;                                  // 1-sigma of the direction, each axis
-  double size_rad = 0.0, size_sd_rad = 0.0;             // of the target; 0: unknown
+  double size_rad = 0.0, size_sd_rad = 0.0;             // apparent size of the target; 0: unknown
 
   CueRay at(std::int64_t later_us) const;
 };
@@ -39,15 +40,15 @@ struct LinePrior {
   double sd_m = 150.0;     // of a logistic distribution
 };
 
-// The range that follows from the apparent size of an object as large as a drone or a bird. nullopt
-// if the size is unknown.
+// The range at which a drone or a bird of usual size has this apparent size. nullopt if the
+// apparent size is unknown or too uncertain.
 std::optional<LinePrior> range_by_size(const CueRay& ray);
 
-// Combines both ranges, by their logarithms. If the sigma of `second` is as large as its range,
-// `second` says nothing, and the result is `first`.
+// The weighted mean of the logarithms of both ranges. If the sigma of `second` is at least as large
+// as its range, the result is `first`.
 LinePrior combined(const LinePrior& first, const LinePrior& second);
 
-// The part of the line with which one searching station begins.
+// The part of the line in which one searching station begins.
 struct LineShare {
   int rank = 0;  // 0 to of - 1, from the near end to the far end
   int of = 1;    // number of searching stations
@@ -57,7 +58,8 @@ struct LineSearchConfig {
   double near_m = 30.0;  // the ends of the line
   double far_m = 20e3;
   double view_s = 0.5;  // time in which a sweep crosses the narrower field of view
-  // Performance of servo and pan-tilt unit, to predict when a unit has reached its start.
+  // Performance of servo and pan-tilt unit. It predicts how long a unit needs to turn to the start
+  // of its sweep.
   double acceleration_rad_s2 = 0.8, speed_rad_s = 1.0, settle_s = 0.3;
 };
 
@@ -69,17 +71,17 @@ struct SweepStart {
 SweepStart sweep_start(const LinePrior& prior, const LineShare& share,
                        const LineSearchConfig& config);
 
-// How long a unit takes to turn by this angle.
+// How long a unit takes to turn by this angle, at rest before and after.
 double turning_s(double angle_rad, const LineSearchConfig& config);
 
-// The position reached in a sweep [rad], 0..way_rad, and whether it moves towards way_rad.
+// The angle that a sweep has reached [rad], 0..way_rad, and whether the angle is increasing.
 struct SweepPlace {
   double angle_rad = 0.0;
   bool up = true;
 };
 SweepPlace to_and_fro(double begin_rad, double swept_rad, double way_rad, bool up_first);
 
-// Where a station is to look at one instant.
+// The direction in which a station is to look at one instant.
 struct LineLook {
   AzimuthElevation direction;  // relative to the horizon at the camera centre
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();  // on the tangent plane
@@ -87,10 +89,10 @@ struct LineLook {
   double sd_rad = 0.0;                                   // across the line
 };
 
-// One station's sweep along a ray, which moves with its target.
+// One station's sweep along a ray. The ray moves with its target.
 class LineSweep {
  public:
-  // The sweep starts after the unit had time to turn from `station`'s last known axis.
+  // The sweep starts when the unit has had time to turn from the last known direction of `station`.
   LineSweep(const CueRay& ray, const StationTraits& station, const SweepStart& start,
             const LineSearchConfig& config);
   // `searched_s`: time since the beginning of the search.
