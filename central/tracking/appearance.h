@@ -1,5 +1,5 @@
-// Decides whether two bearings can belong to one object, by rate, size and brightness. Quantities
-// that a bearing does not state are not compared. Pure.
+// Decides whether two bearings can belong to one object, by comparing rate, size and brightness. A
+// quantity that one of the bearings does not state is not compared. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@ namespace ols::fusion {
 
 // Whether two bearings whose rays meet at these ranges can belong to one object. Three conditions
 // must hold. The speeds perpendicular to the plane of both rays agree (`plane_normal`: the plane's
-// unit normal, ECEF). The sizes agree to within a factor of 4 and are 0.05 to 80 m. The
-// brightnesses (signal times range squared) agree to within a factor of 30.
+// unit normal, ECEF). The sizes, to within their errors, agree by a factor of 4 and are 0.05 to 80
+// m. The brightnesses (signal times range squared) agree by a factor of 30.
 bool may_be_same_object(const BearingMeasurement& a, double range_a_m, const BearingMeasurement& b,
                         double range_b_m, const Eigen::Vector3d& plane_normal);
 

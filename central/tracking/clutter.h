@@ -1,5 +1,6 @@
-// Estimates how often tracklets of different objects agree by chance, as if two stations saw the
-// same object. The estimate rests on the clutter: tracklets that became no target. Pure.
+// Estimates how often two stations' tracklets of different objects agree by chance, and look like
+// one object. The estimate is computed from the clutter: the tracklets that did not become targets.
+// Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,19 +16,19 @@ namespace ols::fusion {
 
 class Clutter {
  public:
-  // These take a bearing of a tracklet. unclaimed: no target takes the bearing. undecided: a target
-  // may still take it; if the tracklet ends in this state, it was clutter. claimed: a target takes
-  // it, so the tracklet is not clutter.
+  // Each takes a bearing of a tracklet. unclaimed: no track takes the bearing. undecided: a
+  // tentative track takes it, or it is ambiguous; if the tracklet ends in this state, it was
+  // clutter. claimed: a target takes the bearing; the tracklet is not clutter.
   void unclaimed(const BearingMeasurement& measurement) { note(measurement, false); }
   void undecided(const BearingMeasurement& measurement) { note(measurement, true); }
   void claimed(const BearingMeasurement& measurement);
-  // The expected number per day of pairs of objects, one seen by each station, whose lines of sight
-  // agree for agreed_s.
+  // The expected number per day of chance pairs: two objects, one seen by each of these stations,
+  // whose lines of sight agree for agreed_s.
   double pairs_a_day(const std::string& a, const std::string& b, double agreed_s) const;
   int pairs_of_stations() const;
-  // The expected number per day of such pairs that are published as targets, for the whole site, if
-  // no third station looks there. Pairs that agree for agreed_s are counted, but at most
-  // most_of_a_pair for each pair of stations.
+  // The expected number per day of chance pairs that the whole site publishes as targets, if no
+  // third station looks there. Adds up pairs_a_day() over all pairs of stations, but at most
+  // most_of_a_pair for each.
   double published_a_day(double agreed_s, double most_of_a_pair) const;
 
  private:
@@ -43,7 +44,7 @@ class Clutter {
     std::map<std::int64_t, Tracklet> open;  // by the station's own id
     std::deque<Tracklet> ended;
   };
-  // The density of a station's clutter.
+  // The density of one station's clutter.
   struct Density {
     double new_per_s = 0.0, life_s = 0.0, present = 0.0;
     double height_rad = 0.0;     // height of the region of the sky in which it appears

@@ -3,13 +3,15 @@
 //
 // A station that sees two objects has two bearings in most exposures. A station that sees one
 // object has one bearing, which both tracks explain, or sometimes one track and sometimes the
-// other. For each pair of tracks that have explained the same bearing, three numbers are therefore
-// counted for each station: exposures with one bearing for the two tracks, those of them whose
-// bearing both tracks explain, and exposures with more bearings.
+// other. Pairs of tracks that have explained the same bearing are therefore examined. For each pair
+// and each station, three numbers are counted: the exposures with a single bearing for the two
+// tracks, the exposures whose single bearing both tracks explain, and the exposures with more than
+// one bearing.
 //
-// Some stations follow a single object and never have more than one bearing. The tracks are
-// therefore two real objects in two cases: they are apart in some station's view, or one and the
-// same track always explains a station's bearings best.
+// Some stations follow a single object and never have more than one bearing. The tracks therefore
+// count as two objects, not as duplicates, in two cases. Either a station sees them apart: both
+// tracks explain only a small share of its bearings. Or at most of the stations, one of the two
+// tracks almost always explains the bearings best.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +26,13 @@
 namespace ols::fusion {
 
 struct DuplicatesConfig {
-  double long_s = 1.0;         // smallest duration
+  double long_s = 1.0;         // shortest time since the pair was first noted
   double memory_s = 1.0;       // exposures older than this count less than 1/e
   double least_single = 15.0;  // smallest number of exposures with one bearing for the two tracks
   double most_apart = 0.05;    // largest share of exposures with more bearings
   double both_explain = 0.3;   // smallest share of each station's bearings that both tracks explain
-  // Smallest share that each of the two tracks explains best, for most stations.
+  // At most of the stations, each of the two tracks must explain at least this share of bearings
+  // best.
   double each_best = 0.15;
 };
 
@@ -37,8 +40,8 @@ class DuplicateTracks {
  public:
   explicit DuplicateTracks(const DuplicatesConfig& config = {}) : config_(config) {}
 
-  // Takes a bearing, and the confirmed tracks that explain it and have no other bearing of this
-  // exposure, best first. The bearing counts for the pairs that contain the best track.
+  // Takes a bearing. `tracks`: the confirmed tracks that explain it and have no other bearing of
+  // this exposure, best first. The bearing is counted for the pairs that contain the best track.
   void note(const BearingMeasurement& measurement, std::span<const std::int64_t> tracks);
   // Pairs of duplicates; the older identity comes first.
   std::vector<std::pair<std::int64_t, std::int64_t>> same() const;
@@ -50,8 +53,8 @@ class DuplicateTracks {
   struct Tally {
     std::int64_t utime_us = 0;  // time of the newest exposure
     int bearings = 0;           // number of the newest exposure's bearings for the two tracks
-    bool shared = false;        // both tracks explain one of them
-    bool first = false;         // the first of the two tracks explains it best
+    bool shared = false;        // both tracks explain one of these bearings
+    bool first = false;  // the first of the two tracks explains the first of these bearings best
     // Counts over the earlier exposures.
     double single = 0.0, both_explain = 0.0, first_best = 0.0, apart = 0.0;
   };

@@ -1,5 +1,5 @@
-// The probability that a target made of tracklets exists: a ghost is missing from images that
-// should show it. Pure.
+// The probability that a target made of tracklets exists. If the target is a ghost, images that
+// should show it often do not. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,17 +11,17 @@
 
 namespace ols::fusion {
 
-// An image that should show a target does show it with a probability of 0.8. At the place of a
-// ghost it shows something with a probability of 0.4, because a ghost's lines of sight belong to
+// An image that should show a target does so with a probability of 0.8. An image that should show a
+// ghost shows something there with a probability of 0.4, because a ghost's lines of sight belong to
 // real objects.
 class Existence {
  public:
-  // Starts judging, with a probability of 0.5. Until then the target counts as certain. A target
-  // not made of tracklets is never judged.
+  // Starts judging, from a probability of 0.5. A target that is not judged has probability 1. Only
+  // targets made of tracklets are judged.
   void begin() { is_judged_ = true; }
   void seen();
-  // visible: the probability that nothing hid the target. If the target is hidden, a miss proves
-  // nothing.
+  // visible: the probability that nothing hides the target in this image. A hidden target's absence
+  // from the image proves nothing.
   void missed(double visible = 1.0);
   bool is_judged() const { return is_judged_; }
   double probability() const;
@@ -37,8 +37,8 @@ class StationViews {
   // view_rad: the narrower field of view.
   void know(const std::string& station, const AzimuthElevation& axis, double view_rad,
             std::int64_t utime_us);
-  // Whether the position is well inside the image of this bearing. False unless the camera has
-  // recently stood still.
+  // Whether the position is well inside the image in which this bearing was measured. False if the
+  // camera has moved recently.
   bool shows(const BearingMeasurement& in_image, const Eigen::Vector3d& p_ecef) const;
   void forget(const std::string& station) { views_.erase(station); }
 

@@ -1,4 +1,4 @@
-// Decides whether the states of an old and a new track belong to the same object. Pure.
+// Decides whether the states of two tracks belong to the same object. Pure.
 #pragma once
 
 #include "central/filter/interacting_models.h"

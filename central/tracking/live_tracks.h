@@ -3,24 +3,26 @@
 // The rules (details in docs/fusion.md):
 //  - The bearings of one image are assigned to the confirmed tracks so that the sum of the NIS is
 //    smallest. The remaining bearings are assigned to the tentative tracks in the same way. A track
-//    takes one bearing per exposure of a station.
+//    takes at most one bearing per exposure of a station.
 //  - If two confirmed tracks fit a bearing about equally well (they cross in that station's view),
-//    the bearing is ambiguous and updates neither track. The other stations tell the two tracks
-//    apart.
+//    the bearing is ambiguous and updates neither track. The bearings of other stations, which see
+//    the two tracks apart, go on updating both.
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
-//  - tentative -> confirmed: three stations have given two bearings each, or two stations have
-//    given five each over confirm_s; the track explains most of their bearings; and it has a
-//    position.
+//  - tentative -> confirmed: the track has a position, it has rejected at most as many bearings as
+//    it has used, and it has used two bearings of each of three stations, or five of each of two
+//    stations over confirm_s.
 //  - A track made of tracklets is not confirmed while it may be a ghost. Images from detectors show
-//    whether it exists (existence.h). Two stations alone may pair their objects in several ways, or
-//    agree by chance (clutter.h). A tracklet belongs to one target only.
-//  - tentative -> deleted: no two stations have seen it for tentative_delete_s, or it is a
-//    duplicate.
-//  - coasting -> deleted: no two stations have seen it for drop_s. The limit is coast_s instead if
-//    one station has too many consecutive rejections while no two other stations agree.
+//    whether it exists (existence.h). If only two stations see it, it also may be a ghost if their
+//    tracklets can be paired in several ways, or may agree by chance (clutter.h). A tracklet
+//    belongs to one target only.
+//  - tentative -> deleted: no two stations have seen the track for tentative_delete_s, or it is a
+//    duplicate of a confirmed track.
+//  - coasting -> deleted: no two stations have seen the track for drop_s. The limit is coast_s
+//    instead if one station has too many consecutive rejections while no two other stations agree.
 //  - two confirmed tracks -> one: they have been duplicates for a second (duplicate_tracks.h).
-//  - A track that is confirmed at the predicted position of a deleted one takes over its identity.
-//    Otherwise it takes over the identity of the bearing-only track of one of its stations.
+//  - A new track that is confirmed at the predicted position of a deleted one takes over the
+//    deleted one's identity. Otherwise it takes over the identity of a bearing-only track of one of
+//    its stations, if there is one.
 #pragma once
 
 #include <cstdint>
@@ -45,8 +47,9 @@ class LiveTracks : public TrackManager {
 
   using TrackManager::add;
   std::vector<Association> add(std::span<const BearingMeasurement> image, bool may_begin) override;
-  // Notes where a station's camera looks; view_rad: the narrower field of view. If a detector's
-  // image should show a target and does not, this counts against the target's existence.
+  // Notes where a station's camera looks; view_rad: the narrower field of view. A target that
+  // should be in a detector's image but is not becomes less likely to exist; this needs the
+  // camera's direction.
   void know_view(const std::string& station, const AzimuthElevation& axis, double view_rad,
                  std::int64_t utime_us) {
     views_.know(station, axis, view_rad, utime_us);
@@ -60,11 +63,11 @@ class LiveTracks : public TrackManager {
   double predicted_ghosts_a_day() const {
     return clutter_.published_a_day(config_.confirm_s, most_of_a_pair());
   }
-  // Called when message time was reset: forgets everything, but never assigns used identities
-  // again.
+  // Called when message time was reset. Forgets everything except the identities in use: these are
+  // never assigned again.
   void clear();
-  // The duplicates merged since the last call (at most the newest 64), in the order of merging:
-  // pairs of identities; the one that remains comes first.
+  // The duplicates merged since the last call, in the order of merging; at most the newest 64. Each
+  // is a pair of identities: first the one that remains, then the one that ended.
   Merged take_merged() { return std::exchange(merged_, {}); }
 
  private:

@@ -1,5 +1,5 @@
-// Decides whether a position may be published, by range, crossing angle, rejections and the
-// consistency of a pair. Pure.
+// Decides whether a track's position may be published. Judges its range, the crossing angle of the
+// rays, the rejections, and whether a pair of stations is consistent. Pure.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace ols::fusion {
 
-// If only two stations deliver, nothing checks their residual: if their rays miss each other for
-// whatever reason (two objects, a wrong heading), the filter estimates a bias. Returns whether that
-// bias exceeds the errors that the stations state.
+// Whether only two stations support the track, and their estimated biases exceed the errors that
+// they state. With only two stations, rays that miss each other for whatever reason (two objects, a
+// wrong heading) leave no residual: the filter explains the miss by biases.
 bool is_inconsistent_pair(const TrackFilter& filter);
 
-// The largest number of consecutive rejections of a delivering station, unless two other stations
-// have agreed since that station's last used bearing. Either the station follows another object, or
-// the target has made an unforeseen manoeuvre; the bearings cannot distinguish the two. From
-// kMaxConsecutiveRejections on, there is therefore no position.
+// The largest number of consecutive rejections of a delivering station. A station is ignored if two
+// other stations have agreed since its last used bearing. A station with many rejections follows
+// another object, or the target has made an unforeseen manoeuvre; the bearings cannot distinguish
+// the two. With kMaxConsecutiveRejections or more, no position is therefore published.
 int consecutive_rejections(const TrackFilter& filter, std::int64_t now_us);
 inline constexpr int kMaxConsecutiveRejections = 6;
 
@@ -24,10 +24,11 @@ inline constexpr int kMaxConsecutiveRejections = 6;
 // station.
 bool has_range(const TrackFilter& filter, const KinematicState& state, double share);
 
-// kOk if a filter's state is good enough for a position, otherwise the reason.
+// kOk if a filter's state is good enough to publish its position, otherwise the reason why not.
 Solution judge_position(const TrackFilter& filter, const KinematicState& state);
 
-// Number of stations with a bearing that the filter used within the last within_s of its own time.
+// The number of stations of which the filter has used a bearing within the last within_s of the
+// filter's time.
 int stations_lately(const TrackFilter& filter, double within_s);
 
 }  // namespace ols::fusion

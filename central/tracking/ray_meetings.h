@@ -15,14 +15,14 @@ namespace ols::fusion {
 struct MeetingConfig {
   double pair_s = 0.1;         // largest time between the two rays
   double rate_sd_rad_s = 0.5;  // 1-sigma of a target's possible angular rate
-  double miss_sigma = 4.0;     // largest distance between two rays
+  double miss_sigma = 4.0;     // largest distance between two rays, in sigmas
 };
 
 struct RayMeeting {
   Eigen::Vector3d p_ecef;
   double range_m = 0.0;
   std::string first, second;  // the stations whose rays intersect
-  double miss = 0.0;          // distance of the rays, relative to the largest allowed
+  double miss = 0.0;          // distance between the rays, relative to the largest allowed
   int support = 0;            // number of other stations with a bearing in that direction
 };
 
@@ -31,20 +31,20 @@ class RayMeetings {
   RayMeetings(const MeetingConfig& config, double max_range_m)
       : config_(config), max_range_m_(max_range_m) {}
 
-  // The points where a ray intersects rays of other stations, best supported first. failure: why
-  // the last of the other rays was missed.
+  // The points where this bearing's ray intersects rays of other stations, best supported first.
+  // failure: why the ray does not intersect the last ray with which it was compared.
   std::vector<RayMeeting> of(const BearingMeasurement& measurement,
                              const UnassociatedBearings& bearings, const BiasModel& errors,
                              Solution& failure) const;
   // Whether two bearings may belong to one object.
   bool may_meet(const BearingMeasurement& a, const BearingMeasurement& b,
                 const BiasModel& errors) const;
-  // A generous bound of a target's angular motion in this time.
+  // An upper bound of the angle by which a target moves in this time; generous.
   double moved_rad(double dt_s) const;
   const MeetingConfig& config() const { return config_; }
 
  private:
-  // A ray with the data for a quick check.
+  // A bearing, and its summary for a quick check.
   struct LookedAt {
     const BearingMeasurement& measurement;
     const BearingSummary& look;

@@ -1,14 +1,16 @@
-// The only track of a recording of one object: every bearing is offered to it. Pure.
+// The track of a recording that contains only one object. Every bearing is offered to this track.
+// Pure.
 //
 //  - Two rays begin the track, on trial. It is confirmed once it has a position. The trial ends
-//    when the same bearings give an initiation that live tracks would accept. If a bearing does not
-//    fit before that, the track is undone, together with everything learnt from it. For a second
-//    after that, only such an initiation can begin a track.
-//  - If most bearings of at least two stations, and of at least half of all stations, are
-//    rejected, the track is replaced by an initiation on which more stations agree. It keeps its
-//    identity.
-//  - coasting -> deleted: no two stations have seen it for drop_s. Then two rays can begin it
-//    again.
+//    when the bearings also satisfy the rules of track initiation (track_initiation.h). If a
+//    bearing is rejected during the trial, the track is deleted, and everything learnt from it is
+//    forgotten. For a second after that, two rays do not begin a track: the rules of track
+//    initiation apply.
+//  - A station disagrees with the track if most of its recent bearings are rejected. If at least
+//    two stations, and at least half of all stations, disagree, an initiation on which more
+//    stations agree replaces the track. The track keeps its identity.
+//  - coasting -> deleted: no two stations have seen the track for drop_s. Then two rays can begin a
+//    track again.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +30,7 @@ class RecordedTrack : public TrackManager {
 
   using TrackManager::add;
   std::vector<Association> add(std::span<const BearingMeasurement> image, bool may_begin) override;
-  // Whether an initiation from several stations has confirmed the track.
+  // Whether the track's trial has ended.
   bool is_initiated() const { return proved_; }
   // The confirmed track; null if there is none.
   const Track* located() const;
@@ -53,8 +55,8 @@ class RecordedTrack : public TrackManager {
 
   std::map<std::string, Explains> explains_;
   bool proved_ = false;
-  BiasModel errors_before_;                    // as they were before the track on trial
-  std::optional<std::int64_t> taken_back_us_;  // when a track was last undone
+  BiasModel errors_before_;                    // the station errors before the track on trial
+  std::optional<std::int64_t> taken_back_us_;  // when a trial last failed
 };
 
 }  // namespace ols::fusion

@@ -9,7 +9,7 @@
 
 namespace ols::fusion {
 
-// What the object is, and how well it is seen; 0 if unknown.
+// The object's class and size, and how well it is seen. 0 if unknown.
 struct Appearance {
   ObjectClass object_class = ObjectClass::kUnknown;  // the most probable class
   double class_probability = 0.0;                    // 0..1, probability of this class
@@ -17,14 +17,14 @@ struct Appearance {
   double signal = 0.0;  // signal-to-noise ratio in one picture, for the station that sees it best
 };
 
-// Uses the newest bearing of each station that says what it has seen, for a target at this
-// position: the weighted mean of the sizes, and the largest signal. The class is that of the
-// track's whole life. If stations state classes for their images, the class follows from these
-// alone.
+// The appearance of a target at this position: the weighted mean of the stations' sizes, and the
+// largest signal. Of each station, uses the newest bearing that states a size, a signal or a class.
+// If stations state classes, the class follows from these alone. Otherwise it is the most probable
+// class over the track's whole life (track.classes).
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef);
 
-// Lets the track's classifier take a look, at most five times a second. surface: of the land; may
-// be null.
+// Updates track.classes from the track's present motion, size and height above ground; at most five
+// times a second. surface: the land; may be null.
 void look_at_class(Track& track, const land::Surface* surface);
 
 }  // namespace ols::fusion

@@ -1,4 +1,4 @@
-// One tracked object: its filter, its bearings and its state in the life cycle.
+// A track: the filter, the bearings and the life-cycle state of one object.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct Track {
   std::map<std::int64_t, Eigen::Vector3d>
       velocities;  // [m/s] ECEF, at the looks of the last second
 
-  // Whether the track already has a bearing from this exposure of the station.
+  // Whether the track already has a bearing from the same exposure of the same station.
   bool has_taken(const BearingMeasurement& measurement,
                  std::int64_t within_us = kExposure_us) const;
 };

@@ -1,16 +1,18 @@
-// Initiates tracks from unassociated bearings and the intersections of rays of different stations.
-// Pure.
+// Initiates tracks from unassociated bearings: where rays of different stations intersect, there
+// may be an object. Pure.
 //
-// Rays to different objects intersect, too (ghosts). A hypothesis must therefore explain not only
-// the two rays from which it was made, but also the recent bearings of its stations: the filter is
-// run over these bearings. If three stations agree, the hypothesis is accepted at once. If only two
-// stations agree, they must agree for longer, so that the true objects can take their own bearings
-// first. The filter takes the two stations of the hypothesis first. A third station that is wrong,
-// or that follows another object, is then outside the gate and does no harm. Two stations alone
-// initiate no track that is below the ground or hidden by it (behind_land.h).
+// Each intersection is a hypothesis. Rays to different objects also intersect (ghosts). A
+// hypothesis must therefore explain the recent bearings of its stations, not only the two rays that
+// intersect: a filter is run over these bearings. If three stations agree, the hypothesis is
+// accepted at once. If only two stations agree, they must agree for longer. In the meantime, the
+// tracks of the true objects take their own bearings. The filter first uses the bearings of the two
+// stations whose rays intersect. A third station that is wrong, or that follows another object, is
+// then outside the gate and does no harm. Two stations alone initiate no track that is below the
+// ground or hidden by it (behind_land.h).
 //
 // The cost of a search grows with the number of stations that have unassociated bearings. If there
-// are many such stations, they take turns, so that the cost per bearing does not grow.
+// are many such stations, only some bearings cause a search, and the stations take turns. The cost
+// per bearing is therefore bounded.
 #pragma once
 
 #include <cmath>
@@ -33,14 +35,14 @@ namespace ols::fusion {
 struct InitiationConfig {
   double pool_s = 0.6;  // how long unassociated bearings are kept
   MeetingConfig meeting{};
-  double explained = 0.6;  // smallest share of the stations' frames that a hypothesis must explain
+  double explained = 0.6;  // smallest share of a station's frames that a hypothesis must explain
   double two_stations_s = 0.35;  // if only two stations agree, they must agree for this long
   int least_bearings = 6;
   int pool_of_a_station = 64;                   // largest number of bearings kept per station
   std::shared_ptr<const land::Surface> land{};  // null if no land is known
 };
 
-// A new track, and what its bearings show about the stations' errors.
+// A new track, and the evidence of its bearings about the stations' errors.
 struct TrackStart {
   Track track;
   BiasModel evidence;
@@ -54,9 +56,10 @@ class TrackInitiation {
         meetings_(config.meeting, filter.max_range_m),
         pool_(config.pool_s, config.pool_of_a_station) {}
 
-  // Takes an unassociated bearing. Returns a new track, if any; its bearings leave the pool. If
-  // many stations wait for a search, the track may come from other bearings than this one.
-  // accept_two_rays: for now two rays suffice; they stay in the pool for a better track.
+  // Takes an unassociated bearing. Returns a new track, if any, and removes the track's bearings
+  // from the pool. If many stations wait for a search, the track may consist of other bearings than
+  // this one. accept_two_rays: two rays are enough to begin a track; their bearings then stay in
+  // the pool.
   std::optional<TrackStart> add(const BearingMeasurement& measurement, const BiasModel& errors,
                                 bool accept_two_rays);
   // Keeps a bearing without a search.
@@ -72,25 +75,32 @@ class TrackInitiation {
     return apart_s <= config_.meeting.pair_s && meetings_.may_meet(a, b, errors);
   }
   const UnassociatedBearings& pool() const { return pool_; }
-  // Why the last bearing began no track. Usually this is the reason why its ray and the last
-  // compared ray give no position. kRaysMiss: rays intersect, but the bearings of their stations do
-  // not agree. kTooFewRays: the bearings agree but more are needed, or there was no other ray.
+  // Why the last searched bearing began no track. kRaysMiss: rays intersect, but the bearings of
+  // their stations do not agree. kTooFewRays: the bearings agree but more are needed, or there was
+  // no other ray. Otherwise: why the bearing's ray and the last ray compared with it give no
+  // position.
   Solution why_no_track() const { return failure_; }
-  // Why there is no track, from the number of stations with unassociated bearings at this instant.
-  // If there are several such stations, the last failure.
+  // Why there is no track at this instant. kTooFewRays or kBearingOnly if no station or only one
+  // has recent unassociated bearings; otherwise why_no_track().
   Solution why_none(std::int64_t now_us) const;
 
  private:
-  // A candidate track, and what the run over its bearings has shown about the stations.
+  // A candidate track, and how well it explains the bearings.
   struct Hypothesis {
     TrackStart start;
     int bearings = 0;      // number of explained bearings of the agreeing stations
     double span_s = 0.0;   // time span of those bearings
-    bool settled = false;  // the iteration has converged
-    // Mean squared normalised residual over their frames; NaN if there are none.
+    bool settled = false;  // the iteration of the filter has converged
+    // Mean squared normalised residual over the frames of the agreeing stations; NaN if there are
+    // none.
     double misfit = 0.0;
   };
-  enum class Needed { kTwoRays, kHalf, kAll };  // share of two_stations_s that is required
+  enum class Needed {
+    kTwoRays,
+    kHalf,
+    kAll
+    // For how much of two_stations_s two stations must agree.
+  };
   std::optional<TrackStart> search(const BearingMeasurement& measurement, const BiasModel& errors,
                                    bool accept_two_rays);
   std::optional<BearingMeasurement> next_station_to_search(const BearingMeasurement& measurement);
@@ -110,7 +120,7 @@ class TrackInitiation {
   RayMeetings meetings_;
   UnassociatedBearings pool_;
   Solution failure_ = Solution::kTooFewRays;
-  // Stations that wait for a search, and the effort saved up for the next one.
+  // Stations that wait for a search, and the effort saved for the next search.
   std::deque<std::string> waiting_;
   std::size_t saved_ = 0;
   std::minstd_rand any_;  // gives the same sequence in every run

@@ -1,14 +1,14 @@
-// The life cycle of tracks (docs/fusion.md, "The life of a track"). It is shared by live tracks
-// (live_tracks.h) and the one track of a recording (recorded_track.h), which define the criteria
-// for confirmation and loss. Pure.
+// The life cycle of tracks (docs/fusion.md, "The life of a track"). Two classes derive from it:
+// live tracks (live_tracks.h) and the only track of a recording (recorded_track.h). They define the
+// criteria for confirmation and loss. Pure.
 //
 //  - tentative -> confirmed: the track meets the criteria, and is no duplicate of a confirmed
 //    track.
 //  - confirmed -> coasting: no two stations have seen it for coast_s. coasting -> confirmed: two
 //    stations see it again.
-//  - any -> deleted: only two stations see it, and their rays intersect only if their biases are
-//    larger than stated (an inconsistent pair), or they intersect below or behind the ground
-//    (behind_land.h).
+//  - any -> deleted: only two stations see it, and they are an inconsistent pair (their rays
+//    intersect only if their biases are larger than stated), or their rays intersect below or
+//    behind the ground (behind_land.h).
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,8 @@ struct TrackManagerConfig {
   double coast_s = 0.5;
   double drop_s = Activity::kSupportsS;
   double remember_s = 5.0;     // how long the identity of a deleted track is kept
-  double ambiguous_nis = 9.0;  // smallest difference of the sums of NIS; below it, ambiguous
-  double memory_s = 1.0;       // how long bearings are kept for the estimators without memory
+  double ambiguous_nis = 9.0;  // a bearing is ambiguous if its two best assignments differ by less
+  double memory_s = 1.0;       // how long bearings are kept, for estimators that have no state
   InitiationConfig initiation{};
   FilterConfig filter{};
   BiasModelConfig errors{};
@@ -51,7 +51,7 @@ struct TrackManagerConfig {
 struct Association {
   enum class Kind { kTrack, kAmbiguous, kUnexplained, kRejected };
   Kind kind = Kind::kUnexplained;
-  std::int64_t track_id = 0;  // 0 for no track, or a tentative one
+  std::int64_t track_id = 0;  // 0 if there is no track, or if it is tentative
 };
 
 class TrackManager {
@@ -75,7 +75,7 @@ class TrackManager {
 
   const std::vector<Track>& tracks() const { return tracks_; }
   const BiasModel& errors() const { return errors_; }
-  // Adopts the errors that another run has learnt.
+  // Starts from the station errors that another run has learnt.
   void set_errors(const BiasModel& errors) { errors_ = errors; }
   const UnassociatedBearings& unassociated() const { return initiation_.pool(); }
   // Why the last bearing began no track, and why there is no track at this instant.
@@ -84,11 +84,12 @@ class TrackManager {
   // Whether no target is published because the objects that two stations see can be paired in
   // several ways.
   virtual bool is_ambiguous() const { return false; }
-  // Returns the identity of a local track (the bearing's track_id) that no track explains. If it
-  // belonged to a target, it keeps that target's identity; if it becomes a target, the target takes
-  // over its identity. It is 0 for the first confirm_s, in which ordinary targets are initiated,
-  // and for a bearing without a local track id. `told`: the identities already published at the
-  // same instant; none is used twice.
+  // Returns the identity of a local track (the bearing's track_id) that no track explains. A local
+  // track that has belonged to a target keeps the target's identity. If the local track becomes a
+  // target later, the target takes over the local track's identity. The identity is 0 for a bearing
+  // without a local track id, and for the first confirm_s: an ordinary target is initiated within
+  // this time. `told`: the identities already published at the same instant; none of them is used
+  // twice.
   std::int64_t identify(const BearingMeasurement& newest, std::set<std::int64_t>& told);
   // Whether a track has taken a bearing of this local track within the last within_s.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const;
@@ -98,8 +99,8 @@ class TrackManager {
                  unexplained = 0;
   };
   const Counts& counts() const { return counts_; }
-  // Predicted minus measured direction (cross-elevation, elevation), for the confirmed track
-  // nearest to the bearing.
+  // Predicted minus measured direction [rad] (cross-elevation, elevation), for the confirmed track
+  // nearest to the bearing. nullopt if there is none in front of the camera.
   std::optional<Eigen::Vector2d> off_nearest(const BearingMeasurement& measurement) const;
 
  protected:
@@ -110,8 +111,8 @@ class TrackManager {
   // Whether a tentative track that has a position meets the criteria.
   virtual bool is_worth_confirming(const Track& track) const = 0;
   virtual void on_confirmed(const Track&) {}
-  // Whether a track that no two stations have seen for unseen_s is lost. is_lost() judges
-  // established tracks whose unseen_s exceeds coast_s.
+  // Whether a track that no two stations have seen for unseen_s is lost. is_tentative_lost() judges
+  // tentative tracks; is_lost() judges established tracks whose unseen_s exceeds coast_s.
   virtual bool is_tentative_lost(double unseen_s) const = 0;
   virtual bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const = 0;
   // Called before the deleted tracks are removed.
@@ -123,7 +124,7 @@ class TrackManager {
   void replace(Track& track, Track by);
   // Confirms a tentative track that meets the criteria.
   void consider(Track& track);
-  // Called when message time was reset: forgets everything except which identities are in use.
+  // Called when message time was reset. Forgets everything except the identities in use.
   void clear_tracks();
 
   TrackManagerConfig config_;

@@ -19,15 +19,15 @@ struct BearingSummary {
   std::int64_t utime_us = 0;
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
-  double spread_rad = 0.0;  // generous bound of the angle between the bearing and its target
+  double spread_rad = 0.0;  // upper bound of the angle to its target; generous
   double clock_sd_s = 0.0;
   std::int64_t track_id = 0;
   bool is_tracklet = false;
 
-  // Whether the bearing points at this position, within spread_rad and a margin.
+  // Whether the bearing points at this position, to within spread_rad plus more_rad.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
 };
-// R_ecef_enu: the axes at the bearing's origin, R_ecef_enu(measurement.sight.origin_ecef).
+// R_ecef_enu: that of the bearing's origin (geometry/wgs84.h).
 BearingSummary summarise(const BearingMeasurement& measurement, const Eigen::Matrix3d& R_ecef_enu);
 
 class UnassociatedBearings {
@@ -45,7 +45,7 @@ class UnassociatedBearings {
     PlaceAxes axes_;
   };
 
-  // A bearing is kept until its station has a bearing newer by span_s, or more than `most` newer
+  // A bearing is kept until its station has a bearing that is newer by span_s, or has `most` newer
   // bearings.
   UnassociatedBearings(double span_s, int most)
       : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
