@@ -1,5 +1,6 @@
-// The fusion's connections: to the bus, and to the bus for slews. Reconnects by itself. Numbers the
-// messages of each channel, and counts those that could not be sent.
+// The fusion's connections: to the bus, and to the bus for slews. FusionProcess lets it reconnect
+// after a failure. Numbers the messages of each channel, and counts the messages that could not be
+// sent.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +29,11 @@ class FusionBus {
   FusionBus(Urls urls, std::int64_t boot_id, std::shared_ptr<trust::BusTrust> trust,
             Subscribe subscribe);
 
-  // Waits for a network, at most this long.
+  // Connects if there is no connection; waits at most wait_s for a network.
   void connect(double wait_s);
   // Handles the messages that have arrived; waits briefly for the first one.
   void handle();
-  // Closes a connection that cannot send or does not receive; connect() opens it again.
+  // Closes a connection that cannot send or does not receive. connect() then opens a new one.
   void end_if_broken();
   template <class Message>
   void send(std::string_view channel, const Message& message) {
@@ -63,7 +64,7 @@ class FusionBus {
   std::unique_ptr<LcmBus> bus_;       // null while there is no network
   std::unique_ptr<LcmBus> slew_bus_;  // null if slews use bus_
   BusMonitor monitor_;
-  std::string trouble_;  // the network's trouble, as text
+  std::string trouble_;  // why there is no connection, as text
   bool send_failed_ = false;
   std::int64_t not_sent_ = 0;
   std::map<std::string, std::int64_t, std::less<>> sequences_;

@@ -1,4 +1,4 @@
-// Detects another fusion on the same bus: the two would send conflicting slews. Pure.
+// Detects another fusion on the same bus. Two fusions would send conflicting slews. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class FusionConflictMonitor {
   // Takes a fusion status, possibly our own. now_s: the host's monotonic clock. Returns true if it
   // is from another fusion.
   bool hear(std::int64_t boot_id, double now_s);
-  // The alarm, if another fusion's status came within the last seconds; otherwise empty.
+  // The alarm, if another fusion has sent a status within the last few seconds; otherwise empty.
   Alarm alarm(double now_s) const;
   // True once, after the first status of another fusion.
   bool take_event();

@@ -19,7 +19,7 @@ namespace ols::fusion {
 
 struct FusionProcessOptions {
   std::string slew_url;  // the LCM URL for slews
-  bool replay = false;   // in a replay, message time may differ from the present
+  bool replay = false;   // in a replay, messages may be old by the host's clock
   std::int64_t boot_id = 0;
 };
 
@@ -27,8 +27,8 @@ class FusionProcess {
  public:
   FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options);
 
-  // Handles the messages that have arrived (waits briefly for the first one) and publishes the
-  // results.
+  // Handles the messages that have arrived, and publishes the results. Waits briefly for the first
+  // message.
   void turn();
   // The status in one line, for a person.
   std::string in_one_line() const;
@@ -55,7 +55,7 @@ class FusionProcess {
   struct Errors {
     std::string last{}, told{}, of_fusion{};
 
-    // Returns the error that is new since the last status.
+    // Returns the error that is new since the last status; if there is none, the last one.
     const std::string& newest(const std::string& of_fusion_now);
   };
   // The time from a target's epoch to its publication.
@@ -76,7 +76,7 @@ class FusionProcess {
   Errors errors_;
   AlarmJournal alarms_;
   Latency latency_;
-  // The last sequence number, by the sender's boot id.
+  // The last sequence number of an order, by the sender's boot id.
   std::map<std::int64_t, std::int64_t> cue_orders_;
   std::int64_t cue_message_us_ = 0;  // time of the newest cue
   double waited_s_ = 0.0;            // how long the current bearing waited before it was processed

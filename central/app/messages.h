@@ -1,5 +1,5 @@
-// Translates between the fusion's types and LCM messages. The only decision made here is whether a
-// message is valid on its channel.
+// Translates between the fusion's types and LCM messages. Decides only whether a message is valid
+// on its channel.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@
 namespace ols::fusion {
 
 // Why a datagram is not a valid message on its channel; to_string() names the counter. kNoPosition
-// is no fault: it means that the station does not know its position yet.
+// is not an error: the station does not know its position yet.
 enum class MessageRefusal { kMalformed, kSchema, kOtherStation, kOutOfRange, kNoPosition };
 const char* to_string(MessageRefusal refusal);
 
-// Never throws, whatever the bytes are. check() in central/admission/bearing_check.h judges the
-// values.
+// Never throws, for any bytes. The values are checked later, by check() of
+// central/admission/bearing_check.h.
 std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::string& channel,
                                                                   const void* data, int bytes);
 
-// The contents of a station's status that matter to the fusion. Until the first bearing, the
-// station's position serves as the camera centre.
+// The part of a station's status that the fusion uses. Until the first bearing, the station's
+// position is used as the camera centre.
 struct StationPlace {
   std::string station;
   StationTraits traits;
@@ -44,7 +44,8 @@ std::variant<SkylineSector, MessageRefusal> skyline_sector_from(const std::strin
 // The boot id of the fusion that sent the status.
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
 
-// An operator's decision on a cue or target, or on everything that detectors find.
+// An operator's decision on a cue or a target, or the mode of the hand-over of targets that
+// detectors find.
 struct CueOrder {
   std::string cue;
   bool allow = false;
@@ -53,18 +54,18 @@ struct CueOrder {
   double lease_s = 0.0;
   std::int64_t boot_id = 0, sequence = 0;
 };
-// check() in central/cues/cue_check.h judges the values of a cue.
+// The values of a cue are checked later, by check() of central/cues/cue_check.h.
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes);
 std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes);
 
-// The answer to an order. `reason`: why the order is refused (explained by wire/refusal_words.h);
-// empty if it is accepted.
+// The answer to an order. `reason`: why the order is refused (its words: wire/refusal_words.h);
+// empty if the order is accepted.
 struct CueReply {
   std::int64_t boot_id = 0, sequence = 0;  // id of the order
   std::string reason{};
 };
 
-// The sender's boot id, and the message's sequence number on its channel in this boot.
+// The sender's boot id, and the message's sequence number on its channel since that boot.
 struct MessageStamp {
   std::int64_t boot_id = 0;
   std::int64_t sequence = 0;

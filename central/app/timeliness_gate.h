@@ -1,7 +1,7 @@
 // Decides whether the fusion's output is current by the host's clock. The fusion itself knows only
-// message time. After a suspension (a closed lid, a stopped process) it processes the queued
-// messages and would publish old targets as if they were new. The same would happen if it fell
-// behind. Pure.
+// message time. After a suspension (a closed lid, a stopped process), or if the fusion is too slow,
+// it processes messages that have waited. Without this gate it would publish old targets as if they
+// were new. Pure.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ class TimelinessGate {
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
   double tolerance_s_;
   double withheld_s_ = kNever;  // when output was last withheld
-  double off_s_ = 0.0;          // how far its time was off the host's clock
-  double waited_s_ = 0.0;       // how long its message had waited
+  double off_s_ = 0.0;          // the epoch of that output minus the host's clock
+  double waited_s_ = 0.0;       // how long the message that caused it had waited
   bool news_ = false;
 };
 

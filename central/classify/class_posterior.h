@@ -1,22 +1,24 @@
 // Estimates what kind of object a target is, from its size and its motion over its life. Pure.
 //
-// Each kind (class_table.h) has a probability density over six features of a look, a mixture of
-// normal distributions. The features are size, speed, climb, acceleration across the path, height
-// above the ground, and flicker. Flicker is the relative variance of the outline's two sides within
-// a second; wings and rotors are part of the outline. A bird's outline changes with its wing beat
-// of 2 to 15 Hz, a rigid body's does not. Seen from the side, wings change only the shorter side.
-// The error of each feature is added to the variance of the density, so that an uncertain look
-// decides little. An unknown feature is left out.
+// A look is one set of measurements of the target. It has six features: size, speed, climb,
+// acceleration across the path, height above the ground, and flicker. For each kind of object
+// (class_table.h), the probability density of the features is a mixture of normal distributions.
+// Flicker is the relative variance of the outline's two sides within a second; wings and rotors are
+// part of the outline. A bird's outline changes with its wing beat of 2 to 15 Hz, a rigid body's
+// does not. Seen from the side, wings change only the shorter side. The variance of each feature's
+// error is added to that of the density: an uncertain look therefore has little influence. An
+// unknown feature is left out.
 //
-// Looks at one track are correlated. Their log-likelihoods are therefore averaged. Features that an
-// object keeps for its life (size, cruising speed, height) count as one look. The other features,
-// given these, count as 1 + t / kCorrelation_s independent looks after t seconds, at most
-// kMostLooks: a bird that glides now still glides a tenth of a second later. The weight of a look
-// falls to 37 % in kMemory_s, so that the class changes when a track passes to another object.
+// Looks at one track are correlated: a bird that glides now still glides a tenth of a second later.
+// Their log-likelihoods are therefore averaged, and the average counts as a number of independent
+// looks. For the features that change little over an object's life (size, cruising speed, height),
+// this number is 1. For the other features, given these, it is 1 + t / kCorrelation_s after t
+// seconds, at most kMostLooks. The weight of a look falls to 37 % in kMemory_s: if a track passes
+// to another object, the class changes.
 //
 // A target is 'unknown' until it has been looked at for a second and one class has a posterior of
-// at least 0.9. A look without a size does not count: by motion alone a balloon, a hovering drone
-// and a parked car cannot be told apart.
+// at least 0.9. A look without a size is ignored, because motion alone does not distinguish a
+// balloon, a hovering drone and a parked car.
 #pragma once
 
 #include <array>
@@ -38,9 +40,9 @@ struct Measured {
   double value = 0.0, sd = 0.0;  // 1-sigma; 0 if the value is unknown
 };
 
-// The largest extent of an object in one image [m], its 1-sigma, and the part of it that is
-// independent from image to image (0: unknown). `across_m`: the smaller side of the upright box,
-// with the same relative noise; 0: unknown.
+// The size of an object in one image [m]. value_m: its largest extent. sd_m: 1-sigma of the extent.
+// noise_m: the part of sd_m that is independent from image to image; 0 if unknown. across_m: the
+// smaller side of the upright box, with the same relative noise; 0 if unknown.
 struct SeenSize {
   double value_m = 0.0, sd_m = 0.0, noise_m = 0.0, across_m = 0.0;
 };
@@ -55,21 +57,21 @@ struct ClassLook {
   Measured flicker;
 };
 
-// A look at a target, without its height, which the caller adds. `sizes`: those that one station
-// saw within the last second. Velocities (east, north, up): now, and `apart_s` before;
-// velocity_sd_m_s: their 1-sigma, each axis.
+// Makes a look from one station's sizes of the last second and from two velocities (east, north,
+// up): the present one, and before_m_s, which is apart_s older. velocity_sd_m_s: 1-sigma of each
+// component. The caller adds the height.
 ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
                   const std::array<double, 3>& before_m_s, double apart_s, double velocity_sd_m_s);
 
 inline constexpr int kFeatures = 6;
 using Features = std::array<Measured, kFeatures>;
-// The features as the densities use them: ln size, ln(1 + speed), asinh climb, ln(1 + across),
-// flicker, asinh(height / 10 m).
+// The features, transformed as the densities of class_table.h need them: ln size, ln(1 + speed),
+// asinh climb, ln(1 + across), flicker, asinh(height / 10 m).
 Features features_of(const ClassLook& look);
 
 struct ClassBelief {
   ObjectClass object_class = ObjectClass::kUnknown;
-  double probability = 0.0;  // of this class; 0 if unknown
+  double probability = 0.0;  // of object_class; 0 if unknown
 };
 
 class ClassPosterior {
@@ -86,7 +88,8 @@ class ClassPosterior {
   static constexpr int kMostKinds = 12;
   std::optional<std::int64_t> first_us_, last_us_;
   double weight_ = 0.0;
-  // Weighted sums of the log-likelihoods for each kind: of all features, and of the lasting ones.
+  // Weighted sums of the log-likelihoods for each kind: of all features, and of size, speed and
+  // height alone.
   std::array<double, kMostKinds> sum_{}, lasting_{};
 };
 

@@ -1,10 +1,10 @@
-// Estimates one target's position at an instant, with one of several estimators. They share one
-// interface and are chosen by name:
+// Estimates one target's position at an instant. Several estimators share one interface and are
+// chosen by name:
 //  - filter: the track's own filter (track_filter.h), over time, with velocity;
 //  - least-squares: the joint maximum likelihood of all rays at the instant (least_squares.h);
-//  - paper: the estimator of the OLS paper (paper_triangulation.h); PaperConfig switches its parts.
-// For all of them, the tracks decide beforehand which bearings belong to the target
-// (track_manager.h).
+//  - paper: the estimator of the OLS paper (paper_triangulation.h); PaperConfig switches its parts
+//    on and off.
+// Which bearings belong to the target is decided before, by the track manager (track_manager.h).
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ struct Located {
   std::vector<ContributingStation> stations;  // sorted by id
 };
 
-// Number of instants without a position, for each reason.
+// The number of instants without a position, by reason.
 using Unlocated = std::map<Solution, std::size_t>;
 
 // The data of one target. Only the "filter" estimator needs the filter.
@@ -50,19 +50,19 @@ struct TrackView {
   const TrackFilter* filter = nullptr;
 };
 
-// One estimator serves one target, and may keep state from earlier instants.
+// The estimator of one target. It may keep state from earlier instants.
 class Estimator {
  public:
   virtual ~Estimator() = default;
   virtual const char* name() const = 0;
-  // Call it with instants in order of time.
+  // Must be called with instants in order of time.
   virtual Located locate(const TrackView& target, std::int64_t epoch_us) = 0;
 };
 
 inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
 
-// Whether the estimator predicts the target's motion. Such an estimator loses little accuracy at an
-// instant later than a station's last bearing; other estimators have to extrapolate the bearings.
+// Whether the estimator predicts the target's motion. Such an estimator is nearly as accurate at an
+// instant after a station's last bearing; other estimators have to extrapolate the bearings.
 inline bool predicts(std::string_view name) { return name == "filter"; }
 
 // Returns null for an unknown name.
@@ -71,8 +71,8 @@ std::unique_ptr<Estimator> make_estimator(std::string_view name, const Estimator
 // The stations whose bearings the filter used recently, sorted by id.
 std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us);
 
-// Makes an estimate from a filter's state, after judge_position() has checked the geometry. The
-// covariance includes the systematic part. Crossing angle and residual are computed from the
+// Makes an estimate from a filter's state. First checks the geometry with judge_position(). The
+// covariance includes the systematic part. The crossing angle and the residual are those of the
 // stations whose bearings were used shortly before state.utime_us.
 Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
                      const SystematicPart& systematic);

@@ -1,10 +1,11 @@
-// One joint maximum-likelihood position from N rays, robust to a bad ray.
+// The joint maximum-likelihood position from N rays, robust against outliers.
 //
-// Minimises sum_i r_i^T R_i^-1 r_i over the position in ECEF. r_i is the predicted direction on the
-// measured ray's tangent plane (gnomonic). R_i is its white covariance plus the systematic one:
-// calibration, clock error along the motion, and station position error as seen from the target.
-// Directions are exact at each camera centre, so the result is valid from metres to hundreds of
-// kilometres.
+// Minimises sum_i r_i^T R_i^-1 r_i over the position in ECEF. r_i is the difference between the
+// predicted and the measured direction, on the measured ray's tangent plane (gnomonic). R_i is the
+// covariance of the measured direction: the white part plus the systematic part, which consists of
+// calibration, clock error along the motion, and station position error divided by the range. Each
+// direction is computed at its own camera centre, without approximation. The result is therefore
+// valid from metres to hundreds of kilometres.
 #pragma once
 
 #include <vector>
@@ -14,8 +15,8 @@
 namespace ols::fusion {
 
 struct LeastSquaresConfig {
-  // Rays are consistent up to this limit of chi^2, given as a normal deviate: 3.1 corresponds to a
-  // probability of 0.999.
+  // The limit of chi^2 up to which rays are consistent, given as a one-sided normal deviate: 3.1
+  // corresponds to a probability of 0.999.
   double gate_sigma = 3.1;
   double huber_sigma = 2.0;  // if no consistent subset exists, rays beyond this are down-weighted
   double range_sd_limit = 0.3;  // largest 1-sigma relative to the range; beyond it: "parallel rays"
@@ -23,14 +24,14 @@ struct LeastSquaresConfig {
   int max_iterations = 30;
 };
 
-// Rays are rejected only if the remaining rays are a majority and agree: one of three or four can
-// be rejected, or two of five or six. Otherwise all rays are kept with robust weights, and the
-// covariance is multiplied by chi^2 over its degrees of freedom. (Two rays that miss each other are
-// always treated like this.)
+// Rays are rejected only if the remaining rays are a majority and agree. Of three or four rays, one
+// can be rejected; of five or six, two. If no such subset exists, all rays are kept with robust
+// weights, and the covariance is multiplied by chi^2 over its degrees of freedom. (This always
+// applies to two rays that miss each other.)
 Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& config = {});
 
-// Computes the velocity and its covariance from the angular rates of all used rays together; NaN if
-// the rates do not determine them.
+// Adds to the estimate the velocity and its covariance, from the angular rates of all used rays
+// together. NaN if the rates do not determine the velocity.
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate);
 
 }  // namespace ols::fusion

@@ -1,5 +1,5 @@
-// The combination of pairs of views in the paper's estimator, and the first derivatives of its
-// position with respect to the views' directions. Lengths in metres, ECEF components.
+// The combination of pairs of views in the paper's estimator, and the first derivatives of the
+// estimated position with respect to the views' directions. Lengths in metres, ECEF components.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,14 +28,14 @@ struct PaperPairing {
   Eigen::Matrix3d by_centroid = Eigen::Matrix3d::Zero();
 };
 
-// All pairs of views, combined according to config.pairs. If no pair intersects, `solution` says
-// why the last pair does not.
+// Combines all pairs of views as config.pairs demands. If no pair intersects, `solution` is the
+// reason why the last pair does not.
 PaperPairing pair_views(const std::vector<PaperView>& views, const PaperConfig& config);
 
-// The derivative of the position with respect to the direction of each view, for a change
-// perpendicular to the direction. It is computed in closed form, because a difference quotient
-// would evaluate all pairs four times for every view. The pair chosen by `best-baseline` is held
-// fixed.
+// The derivatives of the position with respect to the direction of each view, for changes
+// perpendicular to the direction. They are computed in closed form: difference quotients would
+// evaluate all pairs four times for every view. With kBestBaseline, the choice of the pair counts
+// as fixed.
 std::vector<Eigen::Matrix3d> derivatives_by_direction(const std::vector<PaperView>& views,
                                                       const PaperPairing& pairing,
                                                       const PaperConfig& config);

@@ -21,11 +21,11 @@ enum class PaperPairs {
 // The parts of the paper's estimator. Each can be switched separately.
 struct PaperConfig {
   PaperPairs pairs = PaperPairs::kAlgorithm1;
-  bool by_belief = true;           // false: both views turn by half of the angle
+  bool by_belief = true;           // false: both views are turned by half of the angle
   int moving_average = 10;         // number h of averaged estimates; 1 for no averaging
-  double min_crossing_rad = 1e-4;  // below this angle, u' and v' count as parallel
+  double min_crossing_rad = 1e-4;  // if u' and v' cross at less, they count as parallel
   double max_range_m = 500e3;
-  // Largest number of stations per target, taken in the order of their ids; 0: all.
+  // Largest number of stations that are used for a target, in the order of their ids; 0: all.
   int max_stations = 0;
 };
 
@@ -41,19 +41,22 @@ struct PaperPoint {
   Eigen::Vector3d position_ecef = nan_vector();  // [m]
 };
 
-// Turns both vectors about the baseline's axis m into one plane M1 M2 W, by beta1 = alpha b2 / (b1
-// + b2) and beta2 = alpha - beta1. The vector with the higher belief turns less. W is where the
-// turned vectors intersect.
+// The mid-plane intersection of two views. M1 and M2 are the camera centres, m is the axis of the
+// baseline, and alpha is the angle about m between the planes of the two direction vectors. The
+// vectors are turned about m into one plane, by beta1 = alpha b2 / (b1 + b2) and beta2 = alpha -
+// beta1: the vector with the higher belief turns less. The position W is the intersection of the
+// turned vectors.
 PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
                           const PaperConfig& config = {});
 
-// Combines all pairs of stations whose rays intersect, as config.pairs says.
+// Combines all pairs of stations whose rays intersect, according to config.pairs.
 //  - Algorithm 1: the weighted centroid of all pairs' estimates, with weights w_i ~ exp(n_i .
-//    unit(T' - bc_i)). bc_i is the baseline's centre and n_i its normal towards T'. The paper
-//    prints the exponent with the vector T' - bc_i itself, which overflows at a few hundred metres.
-//    The paper's text says that the weights express the angle, so the unit vector is used here.
-//  - Best baseline: the pair with the largest t_i . n_i, where t_i is the direction from its centre
-//    to the target.
+//    unit(T' - bc_i)). T' is the centroid of the pairs' points, bc_i the centre of baseline i, and
+//    n_i its normal towards T'. The paper prints the exponent with the vector T' - bc_i itself,
+//    which overflows at a few hundred metres. According to the paper's text, the weights express
+//    the angle. The unit vector is therefore used here.
+//  - Best baseline: the pair with the largest t_i . n_i, where t_i is the direction from the
+//    baseline's centre to the target.
 PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& config = {});
 
 // The paper's position from rays, without the moving average. Its first-order covariance
@@ -61,14 +64,15 @@ PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& 
 // about 2 ms for 100.
 Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config = {});
 
-// The paper's smoothing: the mean of the last h estimates (h = 10). It lags behind a moving target
-// by half the time that the estimates span. The lag (the newest estimate minus the mean) is added
-// to the covariance. Each estimate uses the bearings of one window (AlignmentConfig::window_s).
-// Where two windows overlap, their noise is correlated, and the mean does not reduce that part.
+// The paper's smoothing: the mean of the last h estimates (h = 10). The mean lags behind a moving
+// target by half the time that the estimates span. The square of this lag (the newest estimate
+// minus the mean) is added to the covariance. Each estimate uses the bearings of one window
+// (AlignmentConfig::window_s). Where two windows overlap, the noise of their estimates is
+// correlated, and the mean does not reduce the correlated part.
 class MovingAverage {
  public:
   MovingAverage(int h, double window_s) : h_(h), window_s_(window_s) {}
-  // Takes an estimate that has a solution. Returns the average. Call it in order of time.
+  // Takes an estimate that has a position. Returns the average. Must be called in order of time.
   Estimate add(const Estimate& estimate, std::int64_t utime_us);
   void reset() { estimates_.clear(); }
 

@@ -12,13 +12,14 @@ namespace ols::fusion {
 struct LocalGround {
   double height_m = 0.0;  // of the ground below the position, above the ellipsoid
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();  // rise per metre east, per metre north
-  // 1-sigma of the plane around the position: the model's error, and the deviation of the ground
-  // from a plane.
+  // 1-sigma of the plane's height near the position: the error of the land's model, and the
+  // deviation of the ground from a plane, together.
   double sd_m = 0.0;
 };
 
-// The plane covers the horizontal 1-sigma of the position, and at least 5 m in each direction.
-// nullopt where the surface is unknown. covariance_enu_m2: covariance of the position.
+// The ground at a position with the covariance covariance_enu_m2. The plane is fitted over the
+// horizontal 1-sigma of the position, and over at least 5 m in each direction. nullopt where the
+// surface is unknown.
 std::optional<LocalGround> local_ground(const land::Surface& surface, const Eigen::Vector3d& p_ecef,
                                         const Eigen::Matrix3d& covariance_enu_m2);
 
@@ -45,10 +46,10 @@ struct Position {
   Eigen::Matrix3d covariance_ecef;
 };
 
-// The position of an object that stands on the ground: `position`, updated once with the height of
-// the ground. The ground's error is the same at the next instant, so the result must not be fed
-// back into a filter. nullopt where the surface is unknown, or more than 3 sigmas away from the
-// position.
+// The position of an object that stands on the ground: `position`, updated with the height of the
+// ground. Do not feed the result back into a filter: the ground's error is the same at the next
+// instant, but the filter would count it as independent. nullopt where the surface is unknown, or
+// more than 3 sigmas away from the position.
 std::optional<Position> put_on_ground(const land::Surface& surface, const Position& position);
 
 }  // namespace ols::fusion

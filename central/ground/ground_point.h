@@ -6,10 +6,10 @@
 //
 //   p(r) ~ r / s(r) * exp(-h(r)^2 / 2 s(r)^2) * p(seen | r),   s^2 = s_ground^2 + (r s_elevation)^2
 //
-// All ranges have the same prior probability. If the ground is a plane and the line is steep, the
-// mixture is a Gaussian with the 1-sigma s / tan(grazing angle). A grazing line, or a line that
-// meets several slopes, gives other shapes. The mean and the covariance of the mixture are
-// published.
+// All ranges have the same prior probability. p(seen | r) is the probability that the land does not
+// hide the point at r from the station. If the ground is a plane and the line is steep, the mixture
+// is a Gaussian with the 1-sigma s / tan(grazing angle). If the line is grazing, or meets several
+// slopes, the mixture has another shape. The result is the mean and the covariance of the mixture.
 #pragma once
 
 #include <optional>
@@ -32,8 +32,8 @@ struct GroundPoint {
   double range_m = 0.0;
 };
 
-// nullopt unless it is certain to 3 sigmas that the line meets known ground; also if the mixture is
-// too long to serve as a position.
+// nullopt if it is not certain, to 3 sigmas, that the line meets known ground. Also nullopt if the
+// 1-sigma along the line exceeds range_sd_limit.
 std::optional<GroundPoint> ground_point(const land::Surface& surface, const LineOfSight& sight,
                                         const GroundPointConfig& config = {});
 

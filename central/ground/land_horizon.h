@@ -1,5 +1,6 @@
-// What the land hides from one camera. The map is made sector by sector, when a sector is first
-// needed: a whole map takes seconds, a sector some milliseconds. Pure.
+// The horizon of one camera: what the land hides from it. The horizon map is computed sector by
+// sector, when a sector is first needed: the whole map takes seconds, a sector some milliseconds.
+// Pure.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ class LandHorizon {
   std::shared_ptr<const land::Surface> surface_;
   LocalFrame frame_;
   std::array<std::unique_ptr<land::HorizonMap>, kSectors> sectors_;
-  bool is_unknown_ = false;  // the camera's place is impossible with this surface
+  bool is_unknown_ = false;  // the camera would be below the surface
 };
 
 }  // namespace ols::fusion

@@ -13,7 +13,8 @@ namespace ols::fusion {
 struct LandUse {
   std::shared_ptr<const land::Surface> surface{};  // null if no land is known
   // Stations whose designated objects stand on the ground, according to the site's configuration. A
-  // line of sight alone does not show this: a drone in front of a hillside has the same line.
+  // line of sight does not show whether its object stands on the ground: a drone in front of a
+  // hillside has the same line of sight.
   std::vector<std::string> on_ground{};
 
   bool follows_on_ground(const std::string& station) const {

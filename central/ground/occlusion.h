@@ -1,9 +1,9 @@
-// Predicts when and where a target that the land hides from a station comes out again. Pure.
+// Predicts when and where a target that the land hides from a station reappears. Pure.
 //
-// The target's predicted position at each instant is a Gaussian. Samples of the path are compared
-// with the horizon. Each sample keeps the same normalised offset from the mean along the whole
-// path. Each has its own horizon, displaced by a random error of the land's model. The result is
-// the mean and the covariance of the instants and directions at which the samples come out.
+// The target's predicted position at each instant is a Gaussian. Sample paths are drawn: a sample
+// keeps the same normalised offset from the mean along the whole path. Each sample is compared with
+// a horizon of its own, displaced by a random error of the land's model. The result is the mean and
+// the covariance of the instants and directions at which the samples reappear.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@
 namespace ols::fusion {
 
 struct Emergence {
-  double in_s = 0.0;  // time from the first instant of the path; sd_s: its 1-sigma
+  double in_s = 0.0;  // time from the first instant of the path
   double sd_s = 0.0;
   AzimuthElevation direction;                            // at the camera
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] cross-elevation, elevation
@@ -26,11 +26,12 @@ struct Emergence {
 
 struct Occlusion {
   double hidden = 0.0;            // the probability of being hidden at the first instant
-  std::optional<Emergence> exit;  // empty: the target does not come out within the path
+  std::optional<Emergence> exit;  // empty: the target does not reappear within the path
 };
 
-// `path`: the target's positions, one for each step_s. nullopt if the target cannot be hidden
-// within lead_s. `seen`: the skyline that the station has seen; null if none is known.
+// `path`: the target's predicted positions, at intervals of step_s. nullopt if it is unlikely that
+// the target is hidden at any time within lead_s. `seen`: the skyline that the station has seen;
+// null if none is known.
 std::optional<Occlusion> occlusion_ahead(LandHorizon& horizon, std::span<const Position> path,
                                          double step_s, double lead_s,
                                          const land::SeenSkyline* seen = nullptr);

@@ -1,5 +1,5 @@
-// The skylines that the stations have seen, and what hides targets there in addition to the model
-// of the land. Pure.
+// The skylines that the stations have seen. They contain obstacles that the model of the land
+// lacks: trees, cranes, houses. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,9 +16,9 @@ namespace ols::fusion {
 struct SkylineSector {
   std::string station;
   std::int64_t begun_us =
-      0;  // when this skyline began; with another value, earlier sectors are void
+      0;  // when the station began this skyline; a new value voids earlier sectors
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
-  bool heading_disagrees = false;  // the station disputes its heading
+  bool heading_disagrees = false;  // the skyline does not fit the station's heading
   int sector = 0;
   std::vector<land::SeenSkyline::Column> columns;
 };
@@ -26,17 +26,18 @@ struct SkylineSector {
 class SeenSkylines {
  public:
   void take(const SkylineSector& sector);
-  // Null if none is known from this place, or if the station's heading disagrees with the land.
+  // The station's skyline. Null if none is known from this camera position, or if it does not fit
+  // the station's heading.
   const land::SeenSkyline* of(const std::string& station, const Eigen::Vector3d& camera_ecef) const;
-  // The probability that what the station has seen does not hide a target with this covariance
-  // [m^2, ECEF]; 1 where nothing is known.
+  // The probability that the seen skyline does not hide a target with this covariance [m^2, ECEF];
+  // 1 where the skyline is unknown.
   double visibility(const std::string& station, const Eigen::Vector3d& camera_ecef,
                     const Eigen::Vector3d& target_ecef,
                     const Eigen::Matrix3d& covariance_ecef) const;
   void forget(const std::string& station) { skylines_.erase(station); }
   void clear() { skylines_.clear(); }
 
-  static constexpr double kMoved_m = 5.0;  // as the station has it: SkylineWatch::kMoved_m
+  static constexpr double kMoved_m = 5.0;  // the same as SkylineWatch::kMoved_m of the station
 
  private:
   struct Known {

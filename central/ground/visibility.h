@@ -1,4 +1,4 @@
-// Decides whether the land lets a station see a place. Pure.
+// Computes whether a station can see a position, or whether the land hides it. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,20 +7,20 @@
 
 namespace ols::fusion {
 
-// The probability that nothing on the land blocks the view from a camera to a target with this
-// covariance [m^2, ECEF]. Obstacles within 3 sigmas of the target along the line do not count,
-// because the target may be in front of them. Land that covers the camera (a roof, or a model that
-// is too high there) does not count either, up to the point where the line first emerges from it.
-// Returns 1 where the surface is unknown.
+// The probability that the land does not block the line from a camera to a target with this
+// covariance [m^2, ECEF]. Obstacles within 3 sigmas of the target along the line are ignored,
+// because the target may be in front of them. If the camera itself is below the surface (a roof, or
+// a model that is too high there), the surface is ignored up to the point where the line first
+// emerges from it. Returns 1 where the surface is unknown.
 double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
                   const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
 
-// The probability that the target can be where it is: visible from the camera, and not below the
-// ground. It is the smaller of the two probabilities.
+// How plausible it is that the target is at this position: the smaller of two probabilities, that
+// the target is visible from the camera, and that it is not below the ground.
 double plausibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
                     const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
 
-// Below this plausibility, a position is below the ground, or hidden by it, by more than 3 sigmas.
+// A plausibility below this value means: below the ground, or hidden by it, by more than 3 sigmas.
 inline constexpr double kImplausible = 0.00135;
 
 }  // namespace ols::fusion

@@ -95,12 +95,8 @@ class TrackInitiation {
     // none.
     double misfit = 0.0;
   };
-  enum class Needed {
-    kTwoRays,
-    kHalf,
-    kAll
-    // For how much of two_stations_s two stations must agree.
-  };
+  // How long two stations must agree: not at all, half of two_stations_s, or all of it.
+  enum class Needed { kTwoRays, kHalf, kAll };
   std::optional<TrackStart> search(const BearingMeasurement& measurement, const BiasModel& errors,
                                    bool accept_two_rays);
   std::optional<BearingMeasurement> next_station_to_search(const BearingMeasurement& measurement);
