@@ -20,15 +20,15 @@ struct AdmissionConfig {
   double future_s = 0.5;                // largest lead over "now"
   double flood_hz = 1000.0;             // largest rate of bearings from one station
   std::vector<std::string> stations{};  // only these stations are admitted; if empty, all are
-  // When this number of stations is reached, a new one replaces the station that has been silent
-  // longest, but never one that still delivers.
+  // When this number of stations is reached, a new station replaces another one
+  // (station_registry.h).
   int max_stations = 1024;
   // A station that has been silent for longer than this does not count in the median "now".
   double silence_s = Activity::kDeliversS;
   ClockMonitorConfig clocks{};
 };
 
-// The fate of a bearing, and what the rest of the fusion must forget because of it.
+// The fate of a bearing, and changes of its station after which the fusion must forget something.
 struct Admitted {
   BearingRefusal refusal = BearingRefusal::kNone;
   KnownStation* station = nullptr;       // the sender of an admitted bearing
@@ -46,10 +46,10 @@ class Admission {
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
   void allow_slews(const std::string& station, bool allowed);
-  // Notes that the station sees this target. If its detector sees several targets, the first one
-  // counts until it is out of sight.
+  // Notes that the station sees this target. If its detector sees several targets, the first target
+  // is kept until the detector no longer sees it.
   void note_target(const BearingMeasurement& measurement, std::int64_t target_id);
-  // Called when message time was reset: forgets every judgement that was based on the old time.
+  // Called when message time was reset. Forgets every judgement that was based on the old time.
   void begin_time_line();
 
   // Whether the instant is more than future_s ahead of "now".

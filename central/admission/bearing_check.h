@@ -1,4 +1,4 @@
-// Checks that need only the bearing itself. Pure.
+// Checks of a bearing that need no other data. Pure.
 #pragma once
 
 #include <string_view>
@@ -25,11 +25,11 @@ enum class BearingRefusal {
   kCount,  // the number of reasons; not itself a reason
 };
 const char* to_string(BearingRefusal refusal);
-// Tells a person what is wrong and where to look.
+// An explanation for a person: what is wrong, and where to look.
 std::string_view in_words(BearingRefusal refusal);
 
-// Whether a station can be at this position: near the Earth's surface, with a valid standard
-// deviation.
+// Whether a station can be at this position: it is near the Earth's surface, and its standard
+// deviation is valid.
 bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m);
 
 BearingRefusal check(const BearingMeasurement& measurement);

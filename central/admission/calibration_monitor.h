@@ -1,5 +1,5 @@
-// Compares the errors that a station states for its calibration with its residuals. This is a
-// second check, beside the station's own reference views. Pure.
+// Compares the calibration error that a station states with the bias that its residuals show. The
+// station's own reference views are another, independent check. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,8 +27,8 @@ struct FoundBias {
   Eigen::Vector2d bias_rad, stated_sd_rad;
 };
 
-// The alarm for a station that works with a calibration; empty if there is none. It is raised when
-// the stated sigma explains the bias with a probability below 1 in 16 000.
+// The alarm for a station that uses a calibration; empty if there is none. It is raised if the
+// probability of such a bias, according to the stated sigma, is below 1 in 16 000.
 Alarm calibration_alarm(const std::string& station, const StatedCalibration& stated,
                         const FoundBias& found);
 

@@ -9,7 +9,7 @@
 namespace ols::fusion {
 
 struct FusionLog {
-  std::map<std::string, double> counters;  // they only increase
+  std::map<std::string, double> counters;  // never decrease
   std::string last_error;
 
   void count(const std::string& name, double more = 1.0) { counters[name] += more; }

@@ -15,10 +15,11 @@ using ImageBearings = std::vector<BearingMeasurement>;
 
 class ImageAssembly {
  public:
-  // Takes a bearing. Returns the images that it completes, oldest first. Each bearing states the
-  // number of bearings in its image; the image is complete when that many have arrived. (A bearing
-  // without a number is an image by itself.) If some are missing, the image counts as complete when
-  // its station's next image begins, or when it is more than kWaitS older than `now`.
+  // Takes a bearing. Returns the images that are now complete, oldest first. Each bearing states
+  // the number of bearings in its image; the image is complete when all of them have arrived. (A
+  // bearing that states no number is an image by itself.) If bearings are missing, the image counts
+  // as complete when its station's next image begins, or when the image is more than kWaitS older
+  // than now_us.
   std::vector<ImageBearings> add(const BearingMeasurement& measurement, std::int64_t now_us);
   void forget(const std::string& station) { open_.erase(station); }
   void clear() { open_.clear(); }

@@ -1,5 +1,6 @@
-// The fusion's "now": the median of the stations' newest stamps. It uses no other clock. A replay
-// therefore gives the same results as the live run, and a wrong clock affects only its own station.
+// The fusion's "now": the median of the stations' newest stamps. No other clock is used. A replay
+// therefore gives the same results as the live run, and a station's wrong clock affects only that
+// station.
 #pragma once
 
 #include <cstdint>
@@ -21,18 +22,18 @@ class MessageTime {
   // stepped back: three stamps in a row are more than a second older than its newest one.
   bool hear(const std::string& station, std::int64_t utime_us);
   // The median of the newest stamps of the delivering stations; 0 before the first stamp. For an
-  // even number of stations it is the lower of the two middle stamps, so that a target is rarely
-  // due before most stations' bearings have arrived. Untrusted stations count only while no station
-  // is trusted. With more than kMany stations it is recomputed only after a share of them has sent
-  // a message.
+  // even number of stations, it is the lower of the two middle stamps: the higher one would make
+  // targets due before most stations' bearings have arrived. Untrusted stations count only while no
+  // station is trusted. With more than kMany stations, the median is recomputed only after every
+  // few messages.
   std::int64_t now_us() const { return now_us_; }
   // The same median over all stations, trusted or not.
   std::int64_t middle_us() const { return middle_us_; }
   void trust(const std::string& station, bool trusted);
   // The station's newest stamp; 0 before the first.
   std::int64_t newest_us(const std::string& station) const;
-  // The progress of the other stations' stamps since the station's last message; 0 before its first
-  // message.
+  // How long the station has been silent: the progress of the other stations' stamps since its last
+  // message. 0 before its first message.
   double silent_s(const std::string& station) const;
   // The delivering stations, and their number.
   std::vector<std::string> delivering() const;
@@ -45,8 +46,8 @@ class MessageTime {
   struct Station {
     std::int64_t newest_us = 0;
     bool trusted = true;
-    int older = 0;            // number of consecutive stamps far before the newest
-    double progress_s = 0.0;  // by its own clock, with steps clipped
+    int older = 0;            // number of consecutive stamps more than a second before newest_us
+    double progress_s = 0.0;  // elapsed time by its own clock, with steps clipped
     double heard_s = 0.0;     // elapsed_s_ at its last message
   };
   static constexpr std::size_t kMany = 32;

@@ -1,13 +1,13 @@
 // Finds stations whose bearings agree with no target, for example because their heading is some
 // degrees off. Pure.
 //
-// One unexplained bearing proves nothing. The pose is taken as wrong if, for some seconds, hardly
-// any bearing is explained by a target and all of them miss the nearest target by the same angle.
-// The station is then quarantined: an alarm is raised, and the station's bearings initiate no
-// tracks, because its rays would intersect those of other stations in ghosts. Explained bearings
-// are still used. The quarantine ends when most bearings are explained. It also lapses while there
-// is no target: the station may have been corrected meanwhile, and may be needed to initiate a
-// target.
+// One unexplained bearing proves nothing. A station's pose counts as wrong if, for some seconds,
+// targets explain hardly any of its bearings, and the bearings miss the nearest target by the same
+// angle. The station is then quarantined: an alarm is raised, and its bearings initiate no tracks,
+// because its rays would intersect those of other stations in ghosts. Bearings that a target
+// explains are still used. The quarantine ends when targets explain most of the bearings. It also
+// ends after lapse_s without a target: the station may have been corrected, and may be needed to
+// initiate a target.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@ struct PointingConfig {
   double released_share = 0.5;   // smallest share of explained bearings at which it ends
   double least_off_rad = 0.0035;  // 0.2 deg; the filter estimates smaller offsets as biases
   double most_off_rad = 0.5;      // at a larger offset, the station follows another object
-  double spread = 0.25;           // largest RMS scatter about the mean offset, relative to it
+  double spread = 0.25;           // largest RMS scatter about the mean offset, relative to the mean
   double lapse_s = 5.0;           // after this time without a target, everything is forgotten
 };
 

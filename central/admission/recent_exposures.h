@@ -12,8 +12,9 @@ class RecentExposures {
  public:
   // Whether a bearing is a duplicate: the same exposure, and the same object or the same direction.
   bool has(const BearingMeasurement& measurement) const;
-  // Advances the time to this bearing, and forgets exposures that are over a second older. Call it
-  // for refused bearings, too; otherwise a flood would lock its station out permanently.
+  // Advances the time to this bearing, and forgets exposures that are more than a second older.
+  // Must also be called for refused bearings: otherwise a station would be refused for ever after
+  // one flood.
   void go_on_to(std::int64_t utime_us);
   void add(const BearingMeasurement& measurement);
   void clear() { exposures_.clear(); }

@@ -1,5 +1,5 @@
-// The stations that the fusion knows: which of them belong to the site, and which one is replaced
-// when there are too many. Pure.
+// The stations that the fusion knows. Decides which stations belong to the site, and which one is
+// replaced when there are too many. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace ols::fusion {
 
-// What the fusion must know about a station in order to slew it.
+// The properties of a station that the fusion needs to slew it.
 struct StationTraits {
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
@@ -32,7 +32,7 @@ struct KnownStation {
   RecentExposures exposures;
   std::int64_t bearings = 0;  // number of admitted bearings
   bool delivered = false;     // the station has sent a bearing, even if it was refused
-  std::int64_t heard = 0;     // number of its last message, counted over all stations
+  std::int64_t heard = 0;     // number of its last message, in a count over all stations
   std::int64_t calibration_id = 0;
   std::int64_t boot_id = 0;
   int untimely = 0;  // number of consecutive bearings that were too old or from the future
@@ -43,7 +43,7 @@ struct KnownStation {
     traits.camera_ecef = sight.origin_ecef;
     traits.camera_sd_enu_m = sight.origin_sd_enu_m;
   }
-  // The target that the station follows, or has followed until a moment ago; 0 if there is none.
+  // The target that the station has seen within the last kFollowsS; 0 if there is none.
   std::int64_t follows(std::int64_t now_us) const {
     return saw_target.age_s(now_us) < Activity::kFollowsS ? target_id : 0;
   }
@@ -52,8 +52,10 @@ struct KnownStation {
 class StationRegistry {
  public:
   // names: the stations of the site; if empty, all stations belong to it. most: the largest number
-  // of stations. When it is reached, a new station replaces the one that has been silent longest,
-  // but never one that still delivers.
+  // of stations. When it is reached, a new station replaces a station that has sent no bearing,
+  // else one that has sent fewer than 10, else one that has been silent for more than 10 s; among
+  // equals, the one that has been silent longest. If there is none, the new station is not
+  // admitted.
   StationRegistry(const std::vector<std::string>& names, int most) : names_(names), most_(most) {}
 
   bool belongs(const std::string& station) const;

@@ -1,7 +1,7 @@
-// Finds stations that follow an object of their own, under a track id: there are targets, but none
-// explains the bearings of that object. Either no other station has seen the object, or the
-// operator has designated the wrong one. Bearings cannot distinguish the two cases. The
-// bearing-only track therefore continues, and an alarm asks a person to check. Pure.
+// Finds stations whose tracker follows an object that is none of the present targets. Either no
+// other station has seen the object, or the operator has designated the wrong one. Bearings cannot
+// distinguish the two cases. The bearing-only track therefore continues, and an alarm asks a person
+// to check. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace ols::fusion {
 
 struct UnassociatedConfig {
-  double alarm_s = 10.0;  // alarm after this time without a bearing that a target explains
+  double alarm_s = 10.0;  // the alarm is raised after this time without an explained bearing
 };
 
 class UnassociatedMonitor {
@@ -22,7 +22,7 @@ class UnassociatedMonitor {
 
   // Takes a bearing that no existing target explains. Times are the station's stamps.
   void unexplained(const std::string& station, std::int64_t utime_us);
-  // Takes a bearing that a target explains, or that cannot be compared because there is no target.
+  // Takes a bearing that a target explains, or a bearing at a time without targets.
   void explained(const std::string& station) { stations_.erase(station); }
   // The alarm for a station; empty if there is none. now_us: the fusion's time.
   Alarm alarm(const std::string& station, std::int64_t now_us) const;

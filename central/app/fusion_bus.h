@@ -1,5 +1,5 @@
-// The fusion's connections: to the bus, and to the bus for slews. FusionProcess lets it reconnect
-// after a failure. Numbers the messages of each channel, and counts the messages that could not be
+// The fusion's connections: to the bus, and to the bus for slews. After a failure, connect() opens
+// new connections. Numbers the messages of each channel, and counts the messages that could not be
 // sent.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How long a station still counts after its last bearing. Each purpose has its own window.
+// How long a station counts as active after its last bearing. Each purpose has its own time window.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Activity {
   static constexpr double kFollowsS = 1.0;   // it keeps its target, and its states in a full filter
   static constexpr double kSupportsS = 2.0;  // it supports a track
   static constexpr double kTeachesS =
-      30.0;  // what it taught about the others' errors may still hold
+      30.0;  // its bearings still constrain the estimated biases of other stations
 
   std::int64_t last_us = 0;  // time of the newest bearing; 0 if there is none
 

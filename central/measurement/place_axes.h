@@ -1,5 +1,5 @@
 // Caches the east-north-up axes at a station's position. A station seldom moves, and computing the
-// axes costs as much as ten directions. Pure.
+// axes takes as long as computing ten directions. Pure.
 #pragma once
 
 #include <Eigen/Core>

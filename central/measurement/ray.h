@@ -31,14 +31,14 @@ struct RayFrame {
   Eigen::Matrix<double, 3, 2> tangent;
 };
 RayFrame ray_frame(const LineOfSight& sight);
-// As above, with the axes at the sight's origin already known: R_ecef_enu(sight.origin_ecef).
+// The same, for a caller that already has R_ecef_enu(sight.origin_ecef).
 RayFrame ray_frame(const LineOfSight& sight, const Eigen::Matrix3d& R_ecef_enu);
 
-// The stated systematic error of a line of sight, on its tangent plane [rad^2]: calibration, and
-// the station's position error as seen from a target at range_m.
+// The covariance of a line of sight's stated systematic error, on its tangent plane [rad^2]:
+// calibration, and the station's position error divided by range_m.
 Eigen::Matrix2d stated_covariance(const LineOfSight& sight, double range_m);
 
-// The systematic part of a ray's direction error: stated_covariance(), and the effect of the clock
+// The covariance of a ray's systematic error: stated_covariance(), plus the effect of the clock
 // error along the motion.
 Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m);
 
@@ -46,12 +46,12 @@ Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m);
 enum class Solution {
   kOk,
   kTooFewRays,
-  kParallelRays,  // also: stations at one place, or range not determined with these covariances
+  kParallelRays,  // also: stations at one place, or the range is too uncertain
   kBehindCamera,
   kTooFar,
   kNotConverged,
   kBearingOnly,  // only one station: a direction, no position
-  kRaysMiss,     // rays do not intersect, or not for long enough to belong to one object
+  kRaysMiss,     // rays do not intersect, or have not yet for long enough
   kAmbiguous,    // two stations see objects that may be paired in several ways
 };
 const char* to_string(Solution solution);
@@ -60,13 +60,15 @@ const char* to_string(Solution solution);
 struct RayUse {
   bool used = false;    // false if rejected as an outlier
   double weight = 0.0;  // 0..1, the robust weight
-  // For judging stations over many epochs: the squared normalised residual of both components
-  // together, and its expected value if all covariances are right.
+  // The squared normalised residual of both components together, and its expected value if all
+  // covariances are right. Averaged over many epochs, they show whether a station's covariances are
+  // right.
   double squared = 0.0;
   double expected = 0.0;
-  // For each component (cross-elevation, elevation): the residual, its variance as used for the
-  // weight, and the share (0..1) of that variance that is expected to appear in the residual. For a
-  // rejected ray the share can be above 1, because the position's own error adds to its residual.
+  // For each component (cross-elevation, elevation): the residual; the variance with which the ray
+  // was weighted; and the share (0..1) of this variance that is expected to appear in the residual.
+  // The share of a rejected ray can exceed 1, because the error of the position adds to the
+  // residual.
   Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();
   Eigen::Vector2d redundancy = Eigen::Vector2d::Zero();
@@ -92,9 +94,10 @@ struct Estimate {
   std::vector<RayUse> rays{};                                  // in the order of the input rays
 };
 
-// Largest angle between any two of these directions, folded to 0..pi/2; 0 for fewer than two.
+// The largest angle between the lines of any two of these directions, 0..pi/2; 0 for fewer than
+// two.
 double crossing_angle(const std::vector<Eigen::Vector3d>& directions);
-// As above, for the used rays.
+// The same, for the used rays.
 double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& use);
 
 }  // namespace ols::fusion

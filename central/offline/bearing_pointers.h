@@ -1,5 +1,5 @@
-// Pointers to the bearings of a recording: each bearing is in memory once, and is read in several
-// orders.
+// Pointers to the bearings of a recording. Each bearing is in memory only once, although several
+// lists contain it in different orders.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
-// Separates the objects of a recording that does not name them, by the association of the live
-// tracks (central/tracking/live_tracks.h). Pure.
+// Separates the bearings of a recording by object, if the recording does not say to which object
+// each bearing belongs. Uses the association of the live tracks (central/tracking/live_tracks.h).
+// Pure.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +17,15 @@ namespace ols::fusion {
 bool shows_several_objects(const MutableBearings& measurements);
 
 struct SeparatedBearings {
-  std::map<std::int64_t, MutableBearings> objects{};  // by the identity of the track
+  std::map<std::int64_t, MutableBearings> objects{};  // by the identity of the object's track
   std::size_t low_belief = 0;
   std::size_t duplicate = 0;  // same station, stamp and direction
-  // No track explains the bearing, or two tracks explain it about equally well.
+  // Bearings that no track explains, or that two tracks explain about equally well.
   std::size_t unexplained = 0;
 };
 
-// An object's bearings include those that initiated its track, and those of merged duplicates.
-// `tell` is called after every bearing.
+// The bearings of an object include those that initiated its track, and those of duplicate tracks
+// that were merged into its track. `tell` is called after every bearing.
 SeparatedBearings separate_objects(const MutableBearings& measurements, const FusionConfig& config,
                                    const std::function<void()>& tell);
 

@@ -1,11 +1,11 @@
-// Runs the filter on a recording with the bearings before and after each instant (fixed-interval
-// smoothing).
+// Estimates the target's state at each instant of a recording from the bearings before and after
+// the instant (fixed-interval smoothing).
 //
 // One filter runs forwards in time, another one backwards (Fraser and Potter, 1969). At each
-// instant the forward state (from the bearings up to the instant) is combined with the backward
-// prediction (from the later bearings). Both use the biases of the more certain filter. The
-// undeclared errors of the stations come from an earlier run. A station that missed the target in
-// that run takes part in no track initiation.
+// instant, the forward filter's state (from the bearings up to the instant) is combined with the
+// backward filter's prediction (from the later bearings). The biases of the more certain filter are
+// used for both. The undeclared errors of the stations come from an earlier run. A station that
+// missed the target in that run takes no part in track initiation.
 #pragma once
 
 #include <cstdint>
@@ -26,25 +26,27 @@ struct Smoothed {
   Located located;
 };
 
-// What the first run has shown about the stations.
+// What the earlier run has found about the stations. beside: those that missed the target.
 struct KnownStations {
   BiasModel errors{};
   std::set<std::string> beside{};
 };
 
 struct SmootherOutput {
-  // Called in order of time; without a position, it gets the reason.
+  // Called for each instant in order of time. If there is no position, the estimate contains the
+  // reason.
   std::function<void(Smoothed)> take{};
-  // Called after every bearing that a filter has processed, on the workers' threads.
+  // Called for every bearing that a filter processes, on the workers' threads.
   std::function<void()> tell{};
   Workers workers{};
 };
-// The number of times that each bearing is processed, for this number of instants.
+// How many times each bearing is processed, for this number of instants.
 std::size_t smoother_runs(std::size_t epochs);
 
-// `bearings`: those of one object. Bearings and epochs are both in order of time. The backward
-// filter is stored at the ends of blocks and run again within each block, so memory grows with the
-// root of the number of instants.
+// `bearings`: those of one object. Bearings and epochs are both in order of time. Storing the
+// backward filter at every instant would need too much memory. It is therefore stored only at the
+// ends of blocks, and run again within each block: memory grows with the root of the number of
+// instants.
 void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
             const TrackManagerConfig& config, const KnownStations& known,
             const SmootherOutput& output);
