@@ -32,7 +32,7 @@ namespace ols::fusion {
 struct ClockMonitorConfig {
   double error_limit_s = 0.1;    // 1-sigma as stated by the station
   double offset_limit_s = 0.4;   // offset from the median
-  double usual_offset_s = 0.15;  // offset that exposure times and network delays explain
+  double usual_offset_s = 0.15;  // offset explained by the frames' phases and by network delays
   double release_s = 3.0;
   int stamps = 15;  // number of stamps per station that are compared
 };

@@ -1,5 +1,5 @@
-// Measures how white a station's noise is, from the second differences of its own bearings, in
-// which the target's motion cancels. Pure.
+// Measures how white a station's noise is, from the second differences of its bearings. In these,
+// the target's motion cancels. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,12 +14,13 @@ namespace ols::fusion {
 
 class ColouredNoise {
  public:
-  // Reports to `evidence` how far the middle one of the last three bearings is from the line
-  // between its neighbours. Returns the factor by which to multiply the bearing's stated variance.
+  // Takes a bearing. Reports to `evidence` how far the middle one of the last three bearings is
+  // from the line between its neighbours. Returns the factor by which to multiply the stated
+  // variance of the new bearing.
   double observe(const BearingMeasurement& measurement, const RayFrame& frame, BiasModel& evidence);
 
  private:
-  // The two bearings before the next one.
+  // The last two bearings.
   std::array<std::int64_t, 2> utime_us_{};
   std::array<Eigen::Vector3d, 2> direction_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };

@@ -1,9 +1,9 @@
-// The loops over a covariance's columns in which a filter spends most of its time. P is an n x n
+// Loops over the columns of a covariance P; a filter spends most of its time in them. P is an n x n
 // matrix, column-major; only its lower triangle is used. Pure.
 //
-// They are compiled twice: a processor with AVX takes twice as many elements at once. Each element
-// is computed by itself, with the same operations in the same order, so both versions give the same
-// bits.
+// The loops are compiled twice, with and without AVX: with AVX, a processor handles twice as many
+// elements at once. In both versions, each element is computed by the same operations in the same
+// order. Both therefore give the same bits.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ struct AxisColumns {
 };
 void propagate(const Eigen::Matrix3d& f, Eigen::Index n, const AxisColumns& columns);
 
-// Multiplies each row and each column by its own factor.
+// Multiplies row i and column i by factors[i], for each i.
 void scale(const double* factors, Eigen::Index n, double* P);
 
 // One component of a mixture. `covariance`: a column of the component's covariance, from the

@@ -8,11 +8,11 @@ namespace ols::fusion {
 
 class ConsecutiveRejections {
  public:
-  // Call it for a used bearing: the count starts again.
+  // Restarts the count. To be called for each used bearing.
   void clear();
-  // Counts a rejected bearing of this station. Returns true if at least kMany bearings were
-  // rejected in a row, from two or more stations. The caller must then inflate the covariance and
-  // call clear().
+  // Counts a rejected bearing of this station. Returns true if the last kMany or more bearings were
+  // all rejected, and came from two or more stations. The caller must then inflate the covariance
+  // and call clear().
   bool add(const std::string& station);
 
   static constexpr int kMany = 6;

@@ -1,8 +1,9 @@
-// The Gaussian of a filter's state, and the operations on it for every bearing. Pure.
+// The mean and the covariance of a filter's state, and the operations on them for every bearing.
+// Pure.
 //
 // The target's nine states (motion_model.h) come first, then those of the stations. Only the lower
 // triangle of the covariance is stored: this halves the work, and the matrix cannot become
-// asymmetric. Each function passes through the columns only once.
+// asymmetric. To save memory traffic, each function passes through the columns only once.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,17 +16,17 @@
 namespace ols::fusion {
 
 inline constexpr int kFilterStations = 12;  // largest number of stations with states of their own
-// States of a station: its rotation about east, north and up, its clock's offset, the elevation
-// error that is fixed in its camera, and, where relevant, the error of its position together with
-// its aim (east, north, up).
+// The states of a station: its rotation about east, north and up, its clock's offset, and the
+// elevation error that is fixed in its camera. If they matter at the target's range, there are
+// three more: the error of its position together with its aim (east, north, up).
 inline constexpr int kPoseStates = 5, kPlaceStates = 3;
 inline constexpr int kClockState = 3, kCameraState = 4;
 inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
 
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
-// The matrices are on the heap, because thousands of filters are copied and kept. A matrix takes 70
-// kB with the maximum number of states, and a tenth of that with a few stations.
+// The matrices are on the heap, with their actual size: thousands of filters are copied and kept. A
+// matrix takes 70 kB with the maximum number of states, and a tenth of that with a few stations.
 using FilterMatrix = Eigen::MatrixXd;
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 
@@ -58,7 +59,7 @@ void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<
   result.bottomRows(below) += P.block(first + K, first, below, K).lazyProduct(Ht);
 }
 
-// Computes P - G G^T for the first columns; the others stay as they are.
+// Subtracts G G^T from the first `columns` columns of P.
 void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix& P);
 
 void propagate(const Transition& motion, FilterGaussian& state);
@@ -67,7 +68,8 @@ void propagate(const Transition& motion, TargetGaussian& state);
 // Multiplies each state by its own factor.
 void scale(const FilterVector& factors, FilterGaussian& state);
 
-// Inserts `more` zero states before the given one, or at the end.
+// Inserts `more` zero states before the state with index `before`; at the end if `before` is the
+// number of states.
 void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state);
 
 // Mean and covariance of a mixture of up to kMotions components with these weights; both triangles
@@ -79,8 +81,8 @@ TargetGaussian target_mixture(std::span<const FilterGaussian> parts,
 TargetGaussian target_mixture(std::span<const TargetGaussian> parts,
                               std::span<const double> weights);
 
-// Replaces each component by a mixture of all components, with its own weights (the interaction of
-// Blom and Bar-Shalom).
+// Replaces each component by a mixture of all components (the interaction of Blom and Bar-Shalom).
+// weights[i]: the weights of the mixture that replaces component i.
 using MixtureWeights = std::array<double, kMotions>;
 void interact(const std::array<MixtureWeights, kMotions>& weights, std::span<FilterGaussian> parts);
 

@@ -1,4 +1,4 @@
-// What a target's filter remembers about a station that contributes to it. Pure.
+// The data that a target's filter keeps about a contributing station. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,11 @@ namespace ols::fusion {
 struct FilterStation {
   std::string station;
   LineOfSight sight;                                         // its last bearing
-  Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // axes at the origin of `sight`
+  Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at the origin of `sight`
   Activity last_used, last_offered;
-  int used = 0;      // number of bearings
+  int used = 0;      // number of used bearings
   int rejected = 0;  // number of consecutive rejections since the last used bearing
-  // If one of these ids changes, the station's bias is a new one.
+  // If one of these ids changes, the station has a new bias.
   std::int64_t calibration_id = 0, track_id = 0;
   double weight = 0.0;      // of the last bearing; 0 if it was rejected
   double clock_sd_s = 0.0;  // as learnt from the bearings
@@ -31,10 +31,9 @@ struct FilterStation {
   void note_use(const BearingMeasurement& measurement, double nis, double used_weight);
 };
 
-// Whether the residuals can distinguish this station's errors from the target's motion. For
-// declared errors the answer is always yes. For undeclared errors it is yes only if two other
-// stations deliver: the residuals of two stations have one dimension, but their biases and clocks
-// have six.
+// Whether the residuals can distinguish this station's errors from the target's motion. True if the
+// station declares a bias. Otherwise true only if more than two stations deliver: the residuals of
+// two stations have one dimension, but their biases and clocks have six.
 bool is_redundant(const std::vector<FilterStation>& stations, const FilterStation& entry);
 
 }  // namespace ols::fusion

@@ -1,4 +1,4 @@
-// The measurement model: the prediction of a bearing by each motion model, and the innovation.
+// The measurement model: predicts a bearing with each motion model, and computes the innovation.
 // Pure.
 #pragma once
 
@@ -17,23 +17,24 @@ namespace ols::fusion {
 
 // The effect of a station's own states on its bearing, on the tangent plane.
 struct StationPart {
-  Eigen::Index first = 0;  // index of the first of the station's states
-  bool has_place = false;  // whether the states contain its position
+  Eigen::Index first = 0;  // index of the station's first state
+  bool has_place = false;  // whether the station has position states
   Eigen::Matrix<double, 2, 3> by_rotation;
   Eigen::Matrix3d R_ecef_enu;
 };
 
-// One model's prediction compared with one bearing. The measurement matrix H has the columns
-// [J, ahead_s J, curved_s2 J] for the target's position, velocity and acceleration, then by_pose
-// and by_place for the station.
+// The comparison of one motion model's prediction with one bearing. The measurement matrix H has
+// the columns [J, ahead_s J, curved_s2 J] for the target's position, velocity and acceleration. The
+// columns by_pose and by_place for the station follow.
 struct ModelInnovation {
   double depth_m = 0.0;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
   Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
-  // From the filter's time to the bearing's. curved_s2: half its square; 0 for constant velocity.
+  // ahead_s: time from the filter's instant to the bearing's. curved_s2: half the square of
+  // ahead_s; 0 for constant velocity.
   double ahead_s = 0.0, curved_s2 = 0.0;
-  // A clock error moves the bearing in proportion to this velocity.
+  // The target's velocity: a clock error moves the bearing in proportion to it.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 2, kPoseStates> by_pose;
   Eigen::Matrix<double, 2, kPlaceStates> by_place;
@@ -49,10 +50,10 @@ struct Innovation {
   // The smallest squared normalised residual (NIS, 2 degrees of freedom) among the models; infinite
   // if the target is behind the camera.
   double nis = std::numeric_limits<double>::infinity();
-  std::int64_t state = 0;  // version of the filter's state to which this belongs
+  std::int64_t state = 0;  // the version of the filter's state from which this was computed
 };
 
-// about: the motion at which to linearise; nullopt for the current estimate.
+// about: the motion about which to linearise; nullopt for the current estimate.
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
                               const BearingMeasurement& measurement, const RayFrame& frame,
                               const StationPart* station,
@@ -60,12 +61,12 @@ ModelInnovation innovation_of(const InteractingModels& models, std::size_t which
 
 struct JudgedInnovation {
   double nis = std::numeric_limits<double>::infinity();
-  // The noise variance that the bearing shows, relative to the assumed variance.
+  // The noise variance that the bearing's residual shows, relative to the assumed variance.
   double noise = 1.0;
 };
 
-// Judges the bearing with this white noise and number of models; nullopt if the target is behind
-// the camera.
+// Judges a bearing by the first `models` models, with this white noise; nullopt if the target is
+// behind the camera.
 std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models,
                                       const Eigen::Matrix2d& white, double gate_nis);
 

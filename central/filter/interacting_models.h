@@ -1,4 +1,5 @@
-// A Gaussian mixture of motion models on one state (IMM: Blom and Bar-Shalom, 1988). Pure.
+// A mixture of Gaussians, one for each motion model, over the same state (IMM: Blom and Bar-Shalom,
+// 1988). Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,14 +47,14 @@ class InteractingModels {
   void predict(std::int64_t utime_us);
   // Mixes the models after dt_s.
   void interact(double dt_s);
-  // Updates the models' probabilities after a measurement.
+  // Updates the models' probabilities after a measurement, from the log-likelihood of each model.
   void weigh(std::span<const double> log_likelihood);
-  // Inflates the covariance along these directions, by the effect of the acceleration that is
-  // possible at this velocity, over this time.
+  // Inflates the covariance along `along` (a projection matrix), by the effect of the largest
+  // likely acceleration at this velocity over time_s.
   void inflate(double time_s, const Eigen::Matrix3d& along, const Eigen::Vector3d& v_ecef);
 
-  // Mixtures over the models: the kinematics at the state's own instant, the kinematics at another
-  // instant, and the whole state.
+  // Means and covariances of the mixture: of the kinematics at the state's own instant, of the
+  // kinematics at another instant, and of the whole state.
   KinematicState kinematics() const;
   KinematicState at(std::int64_t utime_us) const;
   FilterGaussian mixed() const;

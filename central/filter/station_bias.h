@@ -15,14 +15,15 @@ inline Eigen::Index states_of(const BiasPrior& prior) {
   return prior.position_states ? kStationStates : kPoseStates;
 }
 
-// The systematic part of the position's covariance at the state's own instant. The empirical part
-// comes from undeclared biases, which only residuals show.
+// The systematic part of the position's covariance at the state's own instant. all_m2: from all
+// biases. empirical_m2: from the undeclared biases, which only residuals show.
 struct SystematicPart {
   Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d empirical_m2 = Eigen::Matrix3d::Zero();
 };
 
-// P: covariance of a whole state: position, velocity, acceleration, then states_of() each prior.
+// P: covariance of a whole state. Its order is position, velocity, acceleration, then
+// states_of(prior) states for each station.
 SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
                                const std::vector<BiasPrior>& priors);
 
@@ -35,8 +36,8 @@ struct StationBias {
   double clock_prior_sd_s = 0.0;
 };
 
-// A station's bias, mixed over the models and projected to its last bearing. `first`: index of the
-// station's first state.
+// A station's bias in the direction of its last bearing, as the mean over the models. `first`:
+// index of the station's first state. `sight`: the last bearing.
 StationBias station_bias(const InteractingModels& models, Eigen::Index first,
                          const BiasPrior& prior, const LineOfSight& sight, double range_m);
 

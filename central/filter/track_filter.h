@@ -1,23 +1,25 @@
-// One target over time: an extended Kalman filter with mixed motion models that processes every
-// bearing at its own instant. Pure.
+// Tracks one target over time: an extended Kalman filter with interacting motion models. It
+// processes every bearing at the bearing's own instant. Pure.
 //
-// State: position, velocity, acceleration (ECEF components). For each contributing station: the
-// rotation error of its pose (about its east, north, up), its clock's offset, the elevation error
-// that is fixed in its camera and, where relevant, the error of its position together with its aim.
-// The rotation and the position error are constant while the tripod stands, the aim until the next
-// designation; the bias on the tangent plane changes with the direction. All are Gauss-Markov
+// The target's states are position, velocity and acceleration (ECEF components). The states of each
+// contributing station are the rotation error of its pose (about its east, north, up), its clock's
+// offset, and the elevation error that is fixed in its camera; if they matter at this range, also
+// the error of its position together with its aim. The rotation and the position error are constant
+// while the tripod stands, and the aim is constant until the next designation; but the bias on the
+// tangent plane, which they cause, changes with the direction. All station states are Gauss-Markov
 // processes with the prior of BiasModel. Observable errors are estimated; the others are only
-// considered (Schmidt). The position's covariance contains both kinds, so averaging does not remove
-// them.
+// considered (Schmidt). The covariance of the target's position contains both kinds: averaging over
+// many bearings does not remove them.
 //
-// A newer bearing propagates the state to its own instant. A late bearing is compared with the
-// target's position at the bearing's own instant, extrapolated by velocity and acceleration. A far
-// outlier is rejected, a near one down-weighted. Consecutive rejections from two stations, or from
-// one station if only two deliver, indicate a manoeuvre that no motion model allows. The covariance
-// is then inflated.
+// If a bearing is newer than the state, the state is propagated to the bearing's instant. If the
+// bearing is late, it is compared with the target's position extrapolated back to the bearing's
+// instant, by velocity and acceleration. A bearing outside the gate is rejected. A bearing inside
+// the gate but beyond robust_nis is down-weighted. Consecutive rejections from two stations, or
+// from one station if only two deliver, indicate a manoeuvre that no motion model contains. The
+// covariance is then inflated.
 //
-// Data flow in one direction: the filter reads the priors of the stations' errors, and returns what
-// a bearing shows about these errors. The owner of the priors learns from this.
+// The filter only reads the priors of the stations' errors. It returns what a bearing shows about
+// these errors as evidence, from which the owner of the priors learns.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,30 +45,29 @@ namespace ols::fusion {
 
 struct FilterConfig {
   MotionConfig motion{};
-  double robust_nis = 9.0;      // squared normalised residual beyond which a bearing is
-                                // down-weighted
-  double gate_nis = 25.0;       // squared normalised residual beyond which a bearing is rejected
-  double mixing_s = 0.05;       // interval at which models are mixed and biases propagated
+  double robust_nis = 9.0;      // a bearing with a larger NIS is down-weighted
+  double gate_nis = 25.0;       // a bearing with a larger NIS is rejected
+  double mixing_s = 0.05;       // interval at which models are mixed and biases are propagated
   double range_sd_limit = 0.3;  // largest 1-sigma of a position, relative to the range
   double max_range_m = 500e3;
-  // Assumed pose and clock error of a station that declares none [rad]. It decides whether two rays
-  // cross widely enough to determine a range.
+  // The assumed pose and clock error of a station that declares no bias [rad]. Rays of two such
+  // stations determine a range only if they cross at a sufficient multiple of this error.
   double undeclared_sd_rad = 1e-3;
-  // If only two stations deliver: the largest squared correction, normalised by stated bias and
-  // noise. If it is larger, the two are an inconsistent pair.
+  // If only two stations deliver: the largest sum of the squares of their estimated biases,
+  // normalised by stated bias and noise. If it is larger, the two are an inconsistent pair.
   double two_stations_nis = 25.0;
   // A station's position error and aim get states of their own when they make up at least this
   // share of the stated bias's variance.
   double place_share = 0.005;
-  // Variance of the error common to all stations, relative to the empirical part of the systematic
-  // variance. Such an error moves the target, and no residual shows it.
+  // Variance of the common-mode error, relative to the empirical part of the systematic variance. A
+  // common-mode error is shared by all stations: it moves the target, and no residual shows it.
   double common_mode = 1.0;
 };
 
 // The fate of a bearing.
 enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate };
 
-// The result of an update. `evidence`: what the bearing shows about the stations' errors, on top of
+// The result of an update. `evidence`: what the bearing shows about the stations' errors, beyond
 // the given priors.
 struct FilterUpdate {
   BearingUse use = BearingUse::kTooLate;
@@ -81,21 +82,22 @@ class TrackFilter {
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
   Innovation innovation(const BearingMeasurement& measurement, const BiasModel& priors) const;
-  // `known`: the bearing's innovation() with the same priors, if available. It is used only for a
-  // late bearing. A newer bearing moves the state to its own instant, with mixing and fading
-  // biases, and is compared there: the extrapolation in innovation() is good enough for a gate, but
-  // not for a gain.
+  // `known`: the bearing's innovation() with the same priors, if available. It is used only if the
+  // bearing is late. For a newer bearing, the state is first propagated to the bearing's instant,
+  // and the innovation is computed again: the extrapolation in innovation() is accurate enough for
+  // a gate, but not for a gain.
   [[nodiscard]] FilterUpdate update(const BearingMeasurement& measurement, const BiasModel& priors,
                                     const Innovation* known = nullptr);
-  // Propagates the state without a bearing. Returns what this shows about the biases.
+  // Propagates the state without a bearing. Returns the evidence that the current bias estimates
+  // give.
   [[nodiscard]] BiasModel advance(std::int64_t utime_us, const BiasModel& priors) {
     BiasModel evidence = BiasModel::evidence_on(priors);
     predict(utime_us, evidence);
     refresh();
     return evidence;
   }
-  // Linearises at this motion instead of at the current estimate, for repeated runs over the same
-  // bearings while the estimate is vague.
+  // From now on, linearises about this motion instead of about the current estimate. For repeated
+  // runs over the same bearings, while the estimate is vague.
   void linearise_about(const KinematicState& motion) { about_ = motion; }
   void linearise_about_itself() { about_.reset(); }
 
@@ -116,7 +118,8 @@ class TrackFilter {
     for (const auto& [name, station] : without_states_) visit(station);
   }
   const std::vector<BiasPrior>& priors() const { return priors_; }  // for each station
-  // The number of other stations from which a bearing was used after this station's last used one.
+  // The number of other stations that have a used bearing newer than this station's last used
+  // bearing.
   std::ptrdiff_t agreed_since(const FilterStation& station) const {
     std::ptrdiff_t count = 0;
     each_station([&](const FilterStation& other) {
@@ -147,7 +150,7 @@ class TrackFilter {
   void add_position_states(int station);
   int station_of(const BearingMeasurement& measurement, const BiasModel& priors);
   Innovation compare(const BearingMeasurement& measurement, int station) const;
-  // along: the bearing's direction if biases may be estimated from it; null otherwise.
+  // along: the bearing's direction, if biases may be estimated from the bearing; otherwise null.
   void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
   void take_without_states(const BearingMeasurement& measurement, FilterUpdate& update);
   void take(const BearingMeasurement& measurement, const Innovation* known, FilterUpdate& update);
