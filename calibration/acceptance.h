@@ -1,5 +1,6 @@
-// Judges whether a calibration is good enough to be offered to a person. The result is a list of
-// named findings, each with its value and its limit. Nothing is accepted automatically.
+// Judges whether a calibration is good enough to be offered to a person for acceptance. The result
+// is a list of named findings, each with its value and its limit. Nothing is accepted
+// automatically.
 #pragma once
 
 #include <optional>
@@ -12,16 +13,18 @@
 namespace ols::calibration {
 
 struct AcceptanceLimits {
-  double rms_arcsec = 15.0, worst_arcsec = 25.0;  // systematic, per axis, over the working volume
-  double detectable_arcsec = 30.0;                // for each reference
+  // Systematic error per axis, over the working volume.
+  double rms_arcsec = 15.0, worst_arcsec = 25.0;
+  double detectable_arcsec = 30.0;  // detectable bias of each reference
   double without_itself_sigma = 3.0;
   double without_itself_arcsec =
-      20.0;  // largest offset of a checked reference from its place according to the others
+      // Largest offset of a checked reference from the position that the other references predict.
+      20.0;
   double closing_arcsec = 12.0;
   double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
-  int sectors = 3;                         // number of 60 deg sectors of azimuth that contain a
-                                           // reference
-  double elevation_deg = 10.0;             // from the lowest reference to the highest
+  // Smallest number of 60 deg sectors of azimuth that contain a reference.
+  int sectors = 3;
+  double elevation_deg = 10.0;  // smallest difference from the lowest reference to the highest
 };
 
 struct Finding {
@@ -37,14 +40,15 @@ const char* to_string(Finding::Judgement judgement);
 
 struct Acceptance {
   std::vector<Finding> findings;
-  // The directions in which the references allow the calibration to be used.
+  // The directions in which the calibration may be used; the references limit them.
   WorkingVolume volume;
   bool volume_is_cut = false;
   bool acceptable() const;  // whether no finding is bad
 };
 
-// Judges an instrument without a setup: whether its residuals, lens and gears agree with earlier
-// knowledge. Does not judge directions.
+// Judges an instrument without a setup: whether its residuals, lens and gears agree with what was
+// known before. Does not judge whether directions are right, because nothing determines the
+// heading.
 Acceptance judge_instrument(const Problem& problem, const Adjustment& adjustment,
                             const Calibration& found, std::size_t station,
                             const AcceptanceLimits& limits = {});

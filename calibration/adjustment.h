@@ -1,5 +1,5 @@
-// The least-squares adjustment of a network: damped normal equations (Levenberg and Marquardt) for
-// the global parameters, with the nuisance parameters of each block eliminated.
+// The least-squares adjustment of a network. Solves damped normal equations (Levenberg and
+// Marquardt) for the global parameters; the nuisance parameters of each block are eliminated.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace ols::calibration {
 struct Fit {
   std::vector<bool> kept;  // for each group
   State state;
-  std::vector<BlockEquations> equations;  // of all blocks at the state, rejected groups included
+  std::vector<BlockEquations> equations;  // of all blocks at the state, including rejected groups
   Eigen::MatrixXd covariance;  // of the global parameters; 0 for a value that is known exactly
   double misfit = 0.0;         // of the kept groups and the priors
   bool converged = false;
@@ -24,14 +24,15 @@ class Adjustment {
 
   const Network& network() const { return network_; }
   const std::vector<Group>& groups() const { return network_.groups; }
-  // The state at the priors, but with these headings.
+  // The state in which all parameters have their prior values, except these headings.
   State start(const std::vector<double>& headings_rad) const;
   Fit fit(State start, const std::vector<bool>& kept) const;
   // Predicts the covariance of a station's parameters after all groups have been sighted, assuming
-  // that reality equals the priors. Uses no pixels. The result is infinite if a target could not be
-  // seen.
+  // that the true parameters equal the priors. Does not use the observations' pixels. The result is
+  // infinite if a target could not be seen.
   StationMatrix planned_covariance(std::size_t station) const;
-  // A group's equations: the sum of its blocks' equations, over the columns of all these blocks.
+  // A group's equations: the sum of its blocks' equations, over all parameters on which its blocks
+  // depend.
   BlockEquations equations(const Fit& fit, std::size_t group) const;
 
  private:

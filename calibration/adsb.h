@@ -1,5 +1,5 @@
-// Positions that aircraft broadcast with their transponders: ADS-B, extended squitter (ICAO Annex
-// 10 Volume IV; RTCA DO-260B; J. Sun, The 1090 Megahertz Riddle).
+// Decodes the positions that aircraft broadcast with their transponders: ADS-B, extended squitter
+// (ICAO Annex 10 Volume IV; RTCA DO-260B; J. Sun, The 1090 Megahertz Riddle).
 #pragma once
 
 #include <array>
@@ -18,18 +18,19 @@ struct AircraftPosition {
   double height_m = 0.0;  // above the WGS84 ellipsoid
 };
 
-// Whether the last three bytes of a message are the parity of the others.
+// Whether the last three bytes of a message are the parity of the other bytes.
 bool has_right_parity(std::span<const std::uint8_t> message);
 
 class AdsbDecoder {
  public:
-  // Takes a message of 14 bytes. Returns the position that it completes, if any. A position needs
-  // an even and an odd message within ten seconds, and the height above the ellipsoid. The aircraft
-  // broadcasts either this height or its difference from the barometric height.
+  // Takes a message of 14 bytes. Returns a position if this message completes one. A position needs
+  // an even and an odd message within ten seconds, and the height above the ellipsoid. An aircraft
+  // broadcasts either this height itself, or its barometric height and the difference between the
+  // two.
   std::optional<AircraftPosition> take(std::span<const std::uint8_t> message,
                                        std::int64_t utime_us);
 
-  // Number of positions lost because the aircraft broadcasts only its barometric height.
+  // The number of positions lost because an aircraft broadcast only its barometric height.
   int barometric_only() const { return barometric_only_; }
 
  private:

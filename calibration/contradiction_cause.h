@@ -1,4 +1,4 @@
-// Looks for a single mistake that explains why observations contradict each other.
+// Looks for one mistake that alone explains why observations contradict each other.
 #pragma once
 
 #include <string>
@@ -8,16 +8,17 @@
 
 namespace ols::calibration {
 
-// One sentence for each mistake that would explain the whole contradiction: two landmarks that were
-// exchanged, an axis that counts the other way, exchanged coordinates of the pixels or of the
-// landmarks, a wrong sign in the station's position; else a mistake of mistakes_of_stations().
-// Empty if no single mistake explains it.
+// One sentence for each mistake that would explain the whole contradiction. The mistakes tried are:
+// two landmarks are exchanged; an axis counts the other way; the two coordinates of the pixels or
+// of the landmarks are exchanged; the station's position has a wrong sign. If none of these
+// explains it, those of mistakes_of_stations() are tried. Empty if no single mistake explains the
+// contradiction.
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
 
-// The same for mistakes of a station, which look like several mistaken references: its position is
-// surveyed wrongly; or its tripod was turned, or its unit lost its counts, between two sightings.
-// If there are thousands of sightings of a drone or an aircraft, some hundreds are tried, so the
-// sighting that is named may come a little after the mistake.
+// The same for mistakes at a station, which look like several mistaken references: its position was
+// surveyed wrongly, its tripod was turned between two sightings, or its unit lost counts between
+// two sightings. If there are thousands of sightings of a drone or an aircraft, only some hundreds
+// are tried: the sighting that the sentence names may then come a little after the mistake.
 std::vector<std::string> mistakes_of_stations(const Problem& problem, const Levels& levels = {});
 
 }  // namespace ols::calibration

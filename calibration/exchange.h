@@ -1,4 +1,4 @@
-// Finds pairs of references that were exchanged.
+// Finds pairs of landmarks whose positions were exchanged by mistake.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace ols::calibration {
 
-// One sentence for each pair of rejected landmarks that agree with all others once their places are
-// exchanged.
+// One sentence for each pair of rejected landmarks that agree with all other observations if their
+// positions are exchanged.
 std::vector<std::string> exchanged_landmarks(const Problem& problem, const Adjustment& adjustment,
                                              const Calibration& found, const Levels& levels = {});
 

@@ -1,5 +1,6 @@
-// Observations from objects that stations followed: an unknown target seen at the same instants (a
-// track), or an aircraft that broadcasts its position.
+// Makes observations from objects that stations followed with their trackers. Such an object is
+// either an aircraft that broadcasts its position, or an unknown target that several stations saw
+// at the same instants (a track).
 #pragma once
 
 #include <cstdint>
@@ -23,33 +24,33 @@ struct FollowedSighting {
   double clock_sd_s = 0.0;
 };
 
-// A sighting at a whole second, interpolated between the exposures before and after that second.
-// Its sd_px includes the error of the clock.
+// A sighting at a whole second, interpolated between the exposures before and after it. Its sd_px
+// includes the error of the clock.
 using Instant = FollowedSighting;
 
 struct Instants {
   std::vector<Instant> instants;  // sorted by station and time
-  std::size_t lonely = 0;  // sightings without a partner on the other side of the whole second
-  std::size_t unsure = 0;  // pairs of sightings whose approach is unknown or differs
+  std::size_t lonely = 0;  // sightings without another one on the other side of a whole second
+  std::size_t unsure = 0;  // pairs of sightings whose directions of approach are unknown or differ
 };
 
-// `stations`: the priors of the stations, as far as known; used only to limit the speed of a
-// target.
+// `stations`: the stations as far as they are known. They are needed to convert a clock error to
+// pixels, by the speed of the target.
 Instants instants_of(std::vector<FollowedSighting> sightings,
                      const std::vector<StationPrior>& stations);
 
 struct FollowedObservations {
   std::vector<Observation> observations;  // sorted by kind, then by name and time
-  // Which objects became an aircraft or a track, and which did not.
+  // Which objects were recognised as an aircraft or as a track, and which were left out.
   std::vector<std::string> remarks;
 };
 
 using TellTracks = std::function<void(std::size_t done, std::size_t all)>;
 
-// The sightings of an object that moves like an aircraft of `references` become sightings of that
-// aircraft. Any other object that several stations see at the same instants becomes a track, one
-// for each combination of the stations' own tracks. `tell` is called after each object has been
-// compared with all aircraft.
+// If an object moves like an aircraft of `references`, its sightings become sightings of that
+// aircraft. The sightings of all other objects that several stations see at the same instants
+// become tracks, one for each combination of the stations' local tracks. `tell` is called after
+// each object has been compared with all aircraft.
 FollowedObservations followed(const std::vector<Instant>& instants,
                               const std::vector<StationPrior>& stations,
                               const std::vector<std::string>& names, const References& references,

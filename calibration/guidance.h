@@ -1,5 +1,5 @@
-// Finds the most helpful next sighting. For each candidate it predicts the systematic error that
-// would remain, over the directions in which a station works.
+// Finds the most helpful next sighting. For each candidate, predicts the systematic error that
+// would remain after it, over the directions in which a station works.
 #pragma once
 
 #include <optional>
@@ -11,16 +11,17 @@
 
 namespace ols::calibration {
 
-// One possible next step: a set of sightings that would be made together. Their readings,
-// references and deviations matter; their pixels do not.
+// A possible next step: one or more sightings that would be made together. Their readings,
+// references and deviations are used; their pixels are not.
 struct Candidate {
   std::string name;
   std::vector<Observation> sightings;
 };
 
 struct Advice {
-  std::size_t candidate = 0;              // index of the candidate
-  double rms_rad = 0.0, worst_rad = 0.0;  // predicted per axis, after the sightings
+  std::size_t candidate = 0;  // index of the candidate
+  // The systematic error predicted after the sightings, per axis.
+  double rms_rad = 0.0, worst_rad = 0.0;
 };
 
 // Candidates, sorted by the error of `station` that would remain after each; smallest first.
@@ -32,12 +33,13 @@ std::vector<Advice> rank_sightings(const Problem& so_far, std::size_t station,
                                    const std::vector<Candidate>& candidates,
                                    const WorkingVolume& volume = {});
 
-// The systematic error that would remain after a plan's observations. Their pixels do not matter.
+// The systematic error that would remain after a plan's observations. The observations' pixels are
+// not used.
 VolumePrecision planned_precision(const Problem& plan, std::size_t station,
                                   const StationModel& model, const WorkingVolume& volume = {});
 
-// The counts that bring a point or a direction onto a pixel, for these directions of approach;
-// nullopt if no counts do.
+// The counts at which the unit has a point or a direction at this pixel, if it comes from these
+// directions of approach. nullopt if there are none.
 std::optional<UnitReading> reading_towards(const StationModel& model, const HomogeneousPoint& point,
                                            const Eigen::Vector2d& pixel, int approach_pan = 1,
                                            int approach_tilt = 1);

@@ -1,9 +1,10 @@
-// Measures the errors of a mount's position reports from the camera's own pictures. Pure.
+// Measures the errors of the positions that a mount reports, by comparing them with the camera's
+// pictures. Pure.
 //
 //   seen = zero + gain * reported + backlash * approach / 2 + gain * delay * rate
 //
-// approach: 1 or -1, the sign of the last motion. A report that is `delay` late states an earlier
-// position of the mount, so in motion the picture is ahead of the report.
+// approach: 1 or -1, the sign of the last motion. A report that is late by `delay` states an
+// earlier position of the mount. In motion, the picture is therefore ahead of the report.
 #pragma once
 
 #include <optional>
@@ -15,7 +16,7 @@ namespace ols::calibration {
 struct MountReading {
   double reported_rad = 0.0, rate_rad_s = 0.0;  // at the exposure, as reported
   int approach = 0;                             // 0: unknown
-  double seen_rad = 0.0;                        // by the picture
+  double seen_rad = 0.0;                        // according to the picture
   bool moves = false;
 };
 
@@ -27,8 +28,8 @@ struct MountFit {
   Measured gain;                 // -1: it counts the other way
   Measured backlash_rad;         // 0 with sd 0: all positions were approached from one side
   Measured delay_s;              // in addition to the delay that the station assumes
-  double position_sd_rad = 0.0;  // of a reported position at rest, against the picture
-  int rests = 0, moves = 0;      // pictures that agree
+  double position_sd_rad = 0.0;  // of a position reported at rest, compared with the picture
+  int rests = 0, moves = 0;      // numbers of the pictures that agree
 };
 
 // nullopt if there are too few pictures at rest or in motion, if there is no motion both ways, or

@@ -1,4 +1,4 @@
-// Identifies stars that were observed without a name.
+// Identifies the stars of observations that do not name their star.
 #pragma once
 
 #include <stdexcept>
@@ -15,13 +15,14 @@ class StarsUnidentified : public std::invalid_argument {
 };
 
 struct NamedStars {
-  std::vector<std::string> remarks;     // for each station, what was found
+  std::vector<std::string> remarks;     // what was found, for each station
   std::vector<std::size_t> false_ones;  // indices of observations that match no star of the table
 };
 
-// Gives a reference to each star observation that has none. Each missing reference "HIP n" is
-// filled in from the table. Observations with the same station, reading and time are one frame.
-// False detections get no name and must be left out. Throws StarsUnidentified.
+// Names the star of each star observation that has no reference, and adds the named stars ("HIP n")
+// to the problem's references, from the table. Observations with the same station, reading and time
+// are one frame. False detections get no name; the caller must leave them out. Throws
+// StarsUnidentified.
 NamedStars name_stars(Problem& problem);
 
 }  // namespace ols::calibration

@@ -1,4 +1,5 @@
-// The inputs of a calibration: the observations, and the references to which they refer.
+// The inputs of a calibration: the observations, and the references (landmarks, stars,
+// trajectories) that they sight.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +19,7 @@ enum class Kind {
   kLandmark,
   kStar,
   kSun,
-  kScene,  // a point of the scenery, at an unknown place
+  kScene,  // a point of the scenery, at an unknown position
   kStation,
   kAircraft,
   kDrone,
@@ -36,16 +37,17 @@ inline bool is_rectification_target(Kind kind) {
 const char* name(Kind kind);
 std::optional<Kind> kind_of(const std::string& name);
 
-// A person's statements about a rectification target.
+// The data of a rectification target that a person states.
 struct TargetFacts {
-  Eigen::Vector2d second_px = Eigen::Vector2d::Zero();  // for a level line: another pixel of it
+  // For a level line: a second pixel on the line.
+  Eigen::Vector2d second_px = Eigen::Vector2d::Zero();
   double distance_m = 0.0;  // for a cross or a ruler: distance from the pan axis
-  // For a cross: its distance to the right of the plane that contains the pan axis and is
-  // perpendicular to the tilt axis. For a ruler: the reading at the pixel, growing upwards. The
-  // zeros of all rulers are at the same height.
+  // For a cross: how far it is to the right of the plane that contains the pan axis and is
+  // perpendicular to the tilt axis. For a ruler: the reading at the pixel, which increases upwards.
+  // The zeros of all rulers are at the same height.
   double offset_m = 0.0;
-  // 1-sigma: for a line, of its level [rad]; for a cross, of its place [m]; for a ruler, of its
-  // zero [m].
+  // 1-sigma: of a line's inclination [rad], a cross's position [m], or the height of a ruler's zero
+  // [m].
   double sd = 0.0;
 };
 
@@ -55,13 +57,13 @@ struct Observation {
   std::optional<std::int64_t> pose;  // sightings of one pose share the errors of its two angles
   std::int64_t utime_us = 0;         // UTC
   UnitReading reading;
-  // Whether the directions of approach were stated. If not, both are 1.
+  // Whether the directions of approach were stated. If not, both approaches in `reading` are 1.
   bool sides_stated = true;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;     // 1-sigma of each coordinate
-  std::string reference;  // a name; for a scene point, its number
-  // For an inclinometer: inclination about X and Y of ORIGIN [rad], their 1-sigma, and the 1-sigma
-  // of the zero.
+  std::string reference;  // the name of the reference; for a scene point, its number
+  // For an inclinometer: the inclinations about X and Y of ORIGIN [rad], their 1-sigma, and the
+  // 1-sigma of the inclinometer's zero.
   Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();
   double tilt_sd_rad = 0.0;
   double zero_sd_rad = 0.0;
@@ -78,7 +80,7 @@ struct FixedPoint {
 // A star's place: ICRS, at epoch 2000.0.
 struct Star {
   double ra_rad = 0.0, dec_rad = 0.0;
-  double pm_ra_rad_yr = 0.0;  // multiplied by the cosine of the declination, as in catalogues
+  double pm_ra_rad_yr = 0.0;  // proper motion, times the cosine of the declination
   double pm_dec_rad_yr = 0.0;
   double parallax_arcsec = 0.0;
 };
@@ -103,7 +105,7 @@ class ObservationRefused : public std::invalid_argument {
                      std::optional<std::size_t> other = std::nullopt)
       : std::invalid_argument(key + ": " + why), index_(index), other_(other) {}
   std::size_t index() const { return index_; }
-  // The index of the observation that this one contradicts.
+  // The index of the observation that the refused one contradicts; nullopt if there is none.
   std::optional<std::size_t> other() const { return other_; }
 
  private:

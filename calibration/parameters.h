@@ -1,4 +1,5 @@
-// The parameters of an adjustment: those of geometry/station_model.h, and two for refraction.
+// A station's parameters in an adjustment: those of geometry/station_model.h, and two for
+// refraction.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +10,7 @@
 namespace ols::calibration {
 
 inline constexpr int kRefraction = kModelParameters;  // coefficient k of the terrestrial refraction
-inline constexpr int kAir = kRefraction + 1;          // factor of the astronomical refraction
+inline constexpr int kAir = kRefraction + 1;  // factor applied to the astronomical refraction
 inline constexpr int kStationParameters = kAir + 1;
 
 using StationVector = Eigen::Matrix<double, kStationParameters, 1>;
@@ -18,15 +19,15 @@ using InstrumentVector = Eigen::Matrix<double, kInstrumentParameters, 1>;
 using InstrumentMatrix = Eigen::Matrix<double, kInstrumentParameters, kInstrumentParameters>;
 
 struct ParameterText {
-  const char* key;       // its name in files, with the unit: "mount_z_deg"
-  bool is_angle;         // true: degrees in files, radians here
+  const char* key;       // its name in files, with the unit, for example "mount_z_deg"
+  bool is_angle;         // if true, it is in degrees in files, in radians here
   double new_unit_sd;    // 1-sigma for a unit that was never calibrated; for kFocal: of fx
   const char* sentence;  // the parameter's meaning
 };
 // The texts in the order of Parameter.
 const std::array<ParameterText, kStationParameters>& parameter_texts();
 
-// Converts from the file's unit to the internal one.
+// Convert from the file's unit to the internal unit, and back.
 double from_file(int parameter, double value);
 double to_file(int parameter, double value);
 

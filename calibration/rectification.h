@@ -1,5 +1,6 @@
 // The results of the paper's rectification (section 4.2): three angles between camera and unit.
-// They come from an adjustment in which the rectification targets are ordinary observations.
+// They are computed from an adjustment in which the sightings of rectification targets are ordinary
+// observations.
 #pragma once
 
 #include <vector>
@@ -10,10 +11,11 @@ namespace ols::calibration {
 
 struct RectifiedAngle {
   enum class Kind {
-    kRoll,  // of the image relative to the horizon, at the level line; right side down > 0
-    // Of the image centre relative to the plane perpendicular to the tilt axis; right > 0.
+    kRoll,  // roll of the image relative to the horizon, at the level line; right side down > 0
+    // Azimuth of the image centre relative to the plane perpendicular to the tilt axis; right > 0.
     kAzimuth,
-    kElevation,  // of the image centre at the rulers, relative to the tilt that the unit counts
+    // Elevation of the image centre at the rulers, relative to the tilt that the unit counts.
+    kElevation,
   };
   Kind kind = Kind::kRoll;
   double rad = 0.0, sd_rad = 0.0;
@@ -21,7 +23,7 @@ struct RectifiedAngle {
 // As in reports: "roll", "azimuth", "elevation".
 const char* to_string(RectifiedAngle::Kind kind);
 
-// The angles whose targets the station has sighted and the adjustment has not rejected.
+// The angles whose targets the station has sighted, unless the adjustment has rejected the target.
 std::vector<RectifiedAngle> rectified_angles(const Problem& problem, const Adjustment& adjustment,
                                              const Calibration& found, std::size_t station);
 

@@ -1,5 +1,5 @@
-// Poses of a unit in which several things were sighted: the errors of the unit's two angles are the
-// same for all sightings of a pose.
+// Shared poses: poses of a unit from which several sightings were made. All sightings of a pose
+// share the errors of the unit's two angles.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace ols::calibration {
 
-// The matrices of an adjustment have two rows for each shared pose. With this number of poses they
-// take 230 MB.
+// The largest number of shared poses. The matrices of an adjustment have two rows for each; with
+// this number they take 230 MB.
 inline constexpr std::size_t kMostSharedPoses = 1000;
 
 class SharedPoses {
  public:
-  // Sightings with the same pose number share one pose. Sightings without a pose number share one
-  // if they have the same time and counts, because they are from one picture. Throws
-  // ObservationRefused if one number occurs with different counts, or if there are more shared
-  // poses than can be adjusted.
+  // Sightings of a station with the same pose number share a pose. Sightings without a pose number
+  // share a pose if they have the same time and counts, because they are from one picture. Throws
+  // ObservationRefused if one pose number occurs with different counts, or if there are more than
+  // kMostSharedPoses.
   explicit SharedPoses(const std::vector<Observation>& observations);
 
   std::size_t size() const { return stations_.size(); }

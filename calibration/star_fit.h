@@ -1,5 +1,5 @@
-// Fits the station's model to stars, some of which may be false. This is the second, exact half of
-// calibration/star_identification.h.
+// Fits the station's model to detected stars; some detections may be false. This is the second,
+// exact step of calibration/star_identification.h.
 #pragma once
 
 #include <vector>
@@ -15,18 +15,19 @@ class StarFit {
 
   struct Result {
     double heading_rad = 0.0;
-    std::vector<StarPair> pairs;  // each detection and each star of a frame occurs at most once
+    std::vector<StarPair> pairs;  // each detection and each star occurs at most once in a frame
     // The largest possible number of pairs. Each frame contributes the number of its detections or
     // the number of the table's stars in its image, whichever is smaller.
     std::size_t possible = 0;
-    double rms_px = 0.0;                        // of each coordinate
-    double focal_change = 0.0, focal_sd = 0.0;  // relative; determined by the stars alone
+    double rms_px = 0.0;                        // RMS residual of each coordinate
+    double focal_change = 0.0, focal_sd = 0.0;  // relative change; the stars alone determine it
   };
-  // Starts from the pairs of a hypothesis and finds all pairs that fit to within some deviations.
+  // Starts from the pairs of a hypothesis. Finds all pairs of a detection and a star that fit to
+  // within a few sigmas.
   Result refined(const StarHypothesis& hypothesis) const;
 
  private:
-  // The change of the parameters that best fits the pairs and the priors.
+  // The change of the parameters that fits the pairs and the priors best.
   struct Solution {
     ModelParameters change = ModelParameters::Zero();
     double rms_px = 0.0;

@@ -1,6 +1,6 @@
 // The stars down to magnitude 7, with positions of the Hipparcos catalogue.
-// dev/python/ols_star_table.py makes the table from that of cedar-solve (Apache-2.0); see
-// star_table.inc for its licence.
+// dev/python/ols_star_table.py makes the table from the table of cedar-solve (Apache-2.0);
+// star_table.inc contains its licence.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ols::calibration {
 
-// ICRS, at the epoch below.
+// A star of the table: ICRS, at the epoch kStarTableEpoch.
 struct TableStar {
   std::int32_t hip = 0;         // number in the Hipparcos catalogue
   std::int32_t ra_1e5deg = 0;   // [1e-5 deg]
@@ -21,14 +21,14 @@ struct TableStar {
   std::int32_t magnitude_tenths = 0;
 };
 
-// The positions include proper motion up to this year only. Proper motion is 0.04 arc seconds a
-// year in the median, and above 0.3 for one star in a hundred.
+// The year up to which the positions include proper motion. The median of the proper motions is
+// 0.04 arc seconds per year; one star in a hundred has more than 0.3.
 inline constexpr double kStarTableEpoch = 2024.0;
 
 // The table, sorted by Hipparcos number.
 std::span<const TableStar> star_table();
 
-// The star at the epoch, without proper motion and parallax.
+// The star's position at the epoch; proper motion and parallax are set to 0.
 Star star_of(const TableStar& star);
 
 // Finds a star by its name, such as "HIP 11767"; nullopt for another text, or for a number that is

@@ -1,5 +1,5 @@
-// Lets detections and stars vote for turns about the vertical. This is the first, rough half of
-// calibration/star_identification.h.
+// Finds candidates for the heading: pairs of a detection and a star vote for turns about the
+// vertical. This is the first, rough step of calibration/star_identification.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace ols::calibration {
 
-// A frame's detections, as directions at heading 0, and the stars that could be among them at some
-// heading.
+// A frame's detections, as directions at heading 0, and the stars that could appear in the frame at
+// some heading.
 struct SeenFrame {
   struct Detection {
     std::size_t index = 0;  // in the frame's detections
@@ -27,7 +27,7 @@ struct SeenFrame {
   std::vector<Detection> detections;
   std::vector<SkyStar> sky;
   AzimuthElevation axis;                        // direction of the image centre, at heading 0
-  double across_sd_rad = 0.0, up_sd_rad = 0.0;  // from the station's parameters
+  double across_sd_rad = 0.0, up_sd_rad = 0.0;  // due to the station's parameters
 };
 
 // A detection of a frame and a star, by their indices.
@@ -47,16 +47,17 @@ class StarVotes {
             const StarConditions& conditions, std::span<const TableStar> table);
 
   const std::vector<SeenFrame>& frames() const { return frames_; }
-  // The turns with the most votes, best first.
+  // The headings with the most votes, best first.
   std::vector<StarHypothesis> hypotheses() const;
 
  private:
-  // Cells of heading (turn) and elevation shift (lift); one row of turns for each lift.
+  // The votes of one frame, on a grid of cells over the heading (turn) and a shift of elevation
+  // (lift). One row of turns for each lift.
   struct Cells {
     int turns = 0, lifts = 0;
     std::vector<int> votes;
     int wrapped(int turn) const { return (turn % turns + turns) % turns; }
-    // Sum of 2 x 2 cells, because the votes for one turn may lie on both sides of a cell's edge.
+    // The sum of 2 x 2 cells: the votes for one turn may lie on both sides of a cell's edge.
     int block(int turn, int lift) const;
   };
   struct Peak {

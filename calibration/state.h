@@ -1,5 +1,5 @@
-// The unknowns of an adjustment: the parameters of every station and every shared pose, and the
-// nuisance of every block.
+// The unknowns of an adjustment: the parameters of every station, UT1, the angles of every shared
+// pose, and the nuisance of every block.
 //
 // The global parameters form one vector: kStationParameters for each station, then UT1 - UTC, then
 // pan and tilt of each shared pose.
@@ -17,8 +17,8 @@ struct StationPrior {
   StationModel model;
   double refraction = 0.13;
   double air = 1.0;
-  // The covariance of the parameters, in their own units; 0 for a parameter that is known exactly.
-  // The heading's covariance is ignored.
+  // The covariance of the parameters, in their units of geometry/station_model.h; 0 for a parameter
+  // that is known exactly. The covariance of the heading is ignored: the heading counts as unknown.
   StationMatrix covariance = StationMatrix::Zero();
   double pose_sd_rad = 0.0;  // 1-sigma of each angle of a pose; independent at every pose
 };
@@ -37,7 +37,8 @@ struct State {
   std::vector<Eigen::VectorXd> nuisances;  // for each block
 };
 
-// The indices of a station's parameters, of UT1 and of a pose's angles among the global parameters.
+// Where the parameters are in the vector of the global parameters: the first index of a station's
+// parameters, the index of UT1, and the first index of a pose's angles.
 struct Layout {
   std::size_t stations = 0, poses = 0;
   int station(std::size_t i) const { return static_cast<int>(i) * kStationParameters; }

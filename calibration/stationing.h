@@ -1,16 +1,17 @@
 // Stationing (paper section 4.2): "the precise heading must be estimated visually by observing the
 // distinctive landmarks". Sightings of places with known positions determine a station's heading.
-// They also correct its tilt (from an inclinometer) and its camera's mounting (from rectification).
+// They also correct the tilt (which an inclinometer has measured) and the camera's mounting (which
+// rectification has measured).
 //
 // The method is maximum a posteriori. The heading has no prior. Tilts, mounting and position have
-// the station's stated deviations as priors. The position is a nuisance parameter: the station
-// keeps its own, and the improved one is given beside it. A turn of the mounting about the vertical
-// looks like a turn of the heading: at the horizon only their sum is observable, and only their sum
-// is needed.
+// the station's stated deviations as priors. The position is a nuisance parameter: the resulting
+// station keeps its old position, and the improved position is a separate result. A turn of the
+// mounting about the vertical has the same effect as a change of the heading. At the horizon, only
+// their sum is observable, and only their sum is needed.
 //
 // The adjustment is tested by geodetic methods (W. Baarda, A Testing Procedure for Use in Geodetic
-// Networks, 1968; P. Teunissen, Testing Theory): data snooping finds mistaken landmarks
-// (calibration/mistaken_landmarks.h); then the global test detects stated deviations that are too
+// Networks, 1968; P. Teunissen, Testing Theory). First, data snooping finds mistaken landmarks
+// (calibration/mistaken_landmarks.h). Then the global test detects stated deviations that are too
 // small.
 #pragma once
 
@@ -26,11 +27,11 @@
 
 namespace ols::calibration {
 
-// A landmark in a station's image. The deviations of its pixel and of its angles must not be zero.
-// Sightings of exactly the same place belong to one landmark and share the error of its
+// The sighting of a landmark in a station's image. The deviations of pixel and angles must not be
+// zero. Sightings of exactly the same position belong to one landmark, and share the error of its
 // coordinates.
 struct LandmarkSighting {
-  // [m] for example from the land register.
+  // [m] For example from the land register.
   Eigen::Vector3d landmark_ecef = Eigen::Vector3d::Zero();
   double landmark_sd_m = 0.0;  // 1-sigma of each axis
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
@@ -58,13 +59,13 @@ class LandmarkRefused : public std::invalid_argument {
   std::string field_, why_;
 };
 
-// One explanation of a contradiction: if these sightings are rejected, all others agree.
+// One explanation of a contradiction: without the rejected sightings, all others agree.
 struct StationingAlternative {
   std::vector<std::size_t> rejected;
   double heading_rad = 0.0;
 };
 
-// Thrown if some landmarks must be mistaken, but the sightings do not show which.
+// Thrown if some landmarks must be mistaken, but the sightings do not show which ones.
 class LandmarksContradict : public Contradiction {
  public:
   LandmarksContradict(const std::string& why, std::vector<StationingAlternative> alternatives,
@@ -85,57 +86,57 @@ class LandmarksContradict : public Contradiction {
   std::vector<std::size_t> failing_;
 };
 
-// heading, tilt x, tilt y, mount z, mount x, mount y of ChainParameters.
+// In the order heading, tilt x, tilt y, mount z, mount x, mount y of ChainParameters.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 
-// The w-test of a landmark: all its sightings together against the others.
+// The w-test of a landmark: tests all its sightings together against the other landmarks.
 struct LandmarkTest {
   std::vector<std::size_t> sightings;
   bool rejected = false;
-  // The root of a chi-square with 2 degrees of freedom per sighting. The landmark counts as
-  // mistaken if it exceeds the critical value.
+  // The root of a chi-square with 2 degrees of freedom per sighting. If w exceeds `critical`, the
+  // landmark counts as mistaken.
   double w = 0.0;
   double critical = 0.0;
   // The minimal detectable bias (power 80 %): a shift of the landmark across and up, as seen from
-  // the station. Infinite if the other landmarks do not check it. A shift along the line of sight
-  // is not detectable.
+  // the station. Infinite if the other landmarks do not check this one. A shift along the line of
+  // sight is not detectable.
   Eigen::Vector2d detectable_m = Eigen::Vector2d::Zero();
 };
 
-// 1-sigma of a line of sight near the horizon.
+// The 1-sigma of the elevation of a line of sight at the horizon, in one azimuth.
 struct HorizonSd {
   double azimuth_rad = 0.0;
   double elevation_sd_rad = 0.0;
 };
 
 struct Stationing {
-  // The geometry with the adjusted chain. The remaining errors are strongly correlated, which
-  // separate deviations cannot express. In `station.sd` the mounting's deviation is therefore zero,
-  // and those of heading and tilts are the smallest values that cover every line of sight within
-  // `highest_rad` of the horizon.
+  // The geometry with the adjusted chain. The remaining errors are strongly correlated; the
+  // separate deviations of `station.sd` cannot express this. In `station.sd`, the deviation of the
+  // mounting is therefore zero. The deviations of heading and tilts are the smallest values that
+  // cover the error of every line of sight within `highest_rad` of the horizon.
   StationGeometry station;
   // [rad^2] Includes the variance factor if the global test rejects the stated deviations.
   PoseCovariance covariance = PoseCovariance::Zero();
-  // Each sighting's residual (cross-elevation, elevation) divided by its deviation.
+  // Each sighting's residual (cross-elevation, elevation), divided by its deviation.
   std::vector<Eigen::Vector2d> residuals;
   std::vector<Eigen::Vector2d> residuals_rad;
   std::vector<LandmarkTest> landmarks;
   ModelTest global;
-  // The w-test of each prior (tilt x, tilt y, mount z, mount x, mount y, east, north, up): standard
-  // normal; 0 for a prior without a deviation.
+  // The w-test of each prior (tilt x, tilt y, mount z, mount x, mount y, east, north, up). If the
+  // prior is right, it is standard normal. 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
-  double scaled_by = 1.0;  // factor by which the deviations were enlarged after the global test
-  // The station's position as far as the landmarks improve it, and the 1-sigma of its worst axis.
+  double scaled_by = 1.0;  // factor by which the global test has enlarged the deviations
+  // The station's position, improved by the landmarks, and the 1-sigma of its worst axis.
   Geodetic position;
   double position_sd_m = 0.0;
-  // For the directions in which the landmarks determine the tilt best and worst.
+  // The azimuths in which the landmarks determine the tilt best and worst.
   HorizonSd best, worst;
 };
 
 // Throws std::invalid_argument if there are no sightings, or if the landmarks do not determine the
-// heading to 10 degrees. Throws LandmarkRefused for a sighting that is not finite, is outside the
-// lens model, or shows a landmark at the station itself. Throws LandmarksContradict if the mistaken
-// landmarks are ambiguous.
+// heading to 10 degrees. Throws LandmarkRefused if a sighting is not finite, is outside the lens
+// model, or shows a landmark at the station itself. Throws LandmarksContradict if it is ambiguous
+// which landmarks are mistaken.
 Stationing station_by_landmarks(const StationGeometry& rough,
                                 std::span<const LandmarkSighting> sightings, double highest_rad,
                                 const Levels& levels = {});

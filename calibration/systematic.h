@@ -1,5 +1,5 @@
-// The systematic error that remains after a calibration: its covariance J C J' in one direction,
-// and its size over all directions in which a station works.
+// The systematic error of a direction that remains after a calibration: its covariance J C J' in
+// one direction, and its RMS and largest values over all directions in which a station works.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ std::optional<SystematicDirection> systematic_direction(const StationModel& mode
 
 // The pan and tilt angles in which a station works.
 struct WorkingVolume {
-  double pan_deg = 150.0;  // to either side
+  double pan_deg = 150.0;  // to the left and to the right of pan 0
   double lowest_deg = -5.0, highest_deg = 30.0;
 };
 

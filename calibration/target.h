@@ -1,4 +1,5 @@
-// The object that a pixel shows: where a station sees it, and which unknowns its place depends on.
+// A target: the object that a pixel shows. Computes where a station should see the target, and how
+// this depends on the unknowns of an adjustment.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,24 +21,25 @@ struct Sighting {
   UnitReading reading;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;
-  std::optional<std::size_t> pose;  // shared with other sightings; nullopt if it has its own pose
-  double pose_sd_rad = 0.0;         // 1-sigma of each angle, if it has its own pose
+  // The index of a shared pose; nullopt if the sighting has its own pose.
+  std::optional<std::size_t> pose;
+  double pose_sd_rad = 0.0;  // 1-sigma of each angle, if the sighting has its own pose
 };
 
 struct TargetView {
   HomogeneousPoint point;  // in GROUND of the station that sees it
-  // Derivatives of (x, w): with respect to the target's nuisance, the station's refraction and air,
-  // and UT1.
+  // Derivatives with respect to the target's nuisance (of x and w), and to the station's refraction
+  // and air and UT1 (of x).
   Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4> by_nuisance =
       Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4>::Zero(4, 0);
   Eigen::Vector3d by_refraction = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_air = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();
-  // If the target is on another station: derivative of x with respect to that station's east, north
+  // If the target is another station: derivative of x with respect to that station's east, north
   // and up.
   Eigen::Matrix3d by_position = Eigen::Matrix3d::Zero();
   double white_sd_m = 0.0;     // 1-sigma of the position; independent at every sighting
-  bool moves_with_us = false;  // the target's place is stated in the station's own frame
+  bool moves_with_us = false;  // the target's position is stated in the station's own frame
 };
 
 inline constexpr double kNoPrior = std::numeric_limits<double>::infinity();
@@ -46,7 +48,7 @@ class Target {
  public:
   virtual ~Target() = default;
   virtual int unknowns() const { return 0; }
-  // 1-sigma of each nuisance. An infinite value has no weight as a prior.
+  // 1-sigma of each nuisance parameter; kNoPrior if it has no prior.
   virtual Eigen::VectorXd prior_sd() const { return Eigen::VectorXd(0); }
   // The nuisance with which an adjustment begins.
   virtual Eigen::VectorXd initial(const State&, const std::vector<Sighting>&) const {
@@ -58,9 +60,9 @@ class Target {
 };
 using TargetPtr = std::shared_ptr<const Target>;
 
-// A surveyed place. The nuisance: the constant errors of its three coordinates.
+// A surveyed point. The nuisance: the constant errors of its three coordinates.
 TargetPtr fixed_target(const FixedPoint& point);
-// A direction in ECEF, including astronomical refraction; it is sighted once.
+// The direction of a celestial body at one instant, in ECEF, including astronomical refraction.
 struct SkyDirection {
   Eigen::Vector3d ecef = Eigen::Vector3d::UnitX();  // unit vector, apparent
   // Derivative with respect to the factor of the refraction.
@@ -69,7 +71,8 @@ struct SkyDirection {
   double elevation_rad = 0.0;                        // apparent
 };
 TargetPtr sky_target(const SkyDirection& direction);
-// A celestial body whose directions share one error at all instants, with `sd_rad` for each axis.
+// A celestial body whose computed directions have the same error at all instants. sd_rad: 1-sigma
+// of this error, each axis.
 struct SkyPosition {
   std::size_t station = 0;
   std::int64_t utime_us = 0;
@@ -78,13 +81,14 @@ struct SkyPosition {
 TargetPtr body_target(std::vector<SkyPosition> positions, double sd_rad);
 // A point of the scenery. The nuisance: its direction and its inverse distance from GROUND.
 TargetPtr scene_target();
-// A target at an unknown place; the nuisance is the place.
+// A target at an unknown position. The nuisance: the position.
 TargetPtr unknown_target();
-// An aircraft that broadcasts its position. The nuisance: along, across, up, latency.
+// An aircraft that broadcasts its position. The nuisance: the errors of its position along its
+// path, across it, and up; and the latency of the broadcast.
 TargetPtr aircraft_target(const Trajectory& trajectory);
 // A drone. The nuisance: the offset of its visible centre from the antenna (east, north, up).
 TargetPtr drone_target(const Trajectory& trajectory);
-// Another station, sighted at the intersection of its axes.
+// Another station. The sighted point is the intersection of that station's axes.
 TargetPtr station_target(std::size_t station);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// The position of a trajectory at an instant.
+// Computes the position on a trajectory at an instant.
 #pragma once
 
 #include "calibration/observation.h"
@@ -7,15 +7,15 @@ namespace ols::calibration {
 
 struct Motion {
   Eigen::Vector3d ecef, velocity_ecef;
-  double gap_s = 0.0;  // time between the two positions used; 0 exactly at a position
+  double gap_s = 0.0;  // time between the two positions used; 0 at a position itself
 };
 
-// The position at an instant, on the chord between the two positions around it. Exactly at a
-// position, the chord to the next one is used. Beyond the ends, the last chord is extrapolated.
-// `trajectory` must have at least two positions.
+// Interpolates linearly between the positions before and after the instant. At a position itself,
+// the velocity is that towards the next position. Beyond the ends, the first or last two positions
+// are extrapolated. `trajectory` must have at least two positions.
 Motion motion_at(const Trajectory& trajectory, double utime_us);
 
-// In a longer gap between positions, a drone or an aircraft may have been anywhere.
+// In a longer gap between two positions, the position of a drone or an aircraft counts as unknown.
 inline constexpr double kLongestGap_s = 3.0;
 
 }  // namespace ols::calibration

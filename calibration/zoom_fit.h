@@ -1,5 +1,5 @@
-// Determines the focal length of a lens at one zoom position, from pictures of still scenery. The
-// scale comes from the pan angles that the unit counts. Pure.
+// Determines the focal length of a lens at one zoom position, from pictures of still scenery at
+// different pan angles. The unit's counts give the pan angles, and thereby the scale. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +18,21 @@ struct ZoomPair {
 };
 
 struct ZoomFitOptions {
-  // 1-sigma of an angle of the unit, without the error that all angles share.
+  // 1-sigma of an angle of the unit, without the error that is common to all angles.
   double angle_sd_rad = 5e-5;
   double centre_sd_px = 10.0;  // prior of the principal point
   double k1_sd = 0.05;         // prior of the radial distortion
 };
 
 struct ZoomFit {
-  ZoomPoint point;      // its position is not set
+  ZoomPoint point;      // its zoom position is not set
   int used = 0;         // number of pairs that agree
-  double rms_sd = 0.0;  // residual RMS over its deviation; 1 is as expected
+  double rms_sd = 0.0;  // RMS of the residuals over their deviations; 1 is expected
   explicit operator bool() const { return used > 0; }
 };
 
-// `station`: as far as it is known; its focal length must be right to a tenth. `angles`: one for
-// each picture.
+// `station`: the station as far as it is known; its focal length must be right to within 10 %.
+// `angles`: one pan and tilt for each picture.
 ZoomFit fit_zoom(const StationGeometry& station, const std::vector<PanTilt>& angles,
                  const std::vector<ZoomPair>& pairs, const ZoomFitOptions& options = {});
 
