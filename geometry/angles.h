@@ -1,4 +1,4 @@
-// Plane angles: conversion and wrapping.
+// Conversion and wrapping of plane angles.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Optimal assignment of rows to columns. Pure.
+// Optimal assignment of the rows of a cost matrix to its columns. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,13 +6,13 @@
 
 namespace ols {
 
-// Gives each row at most one column, and each column to at most one row, so that the sum of costs
-// is least. A row without a column costs `unassigned`. An infinite cost forbids a pair. Returns the
-// column of each row; -1 for a row without a column. Costs must not be negative. Uses the Hungarian
-// method with potentials; the time grows with rows^2 (rows + columns).
+// Assigns to each row at most one column, and to each column at most one row. The sum of the costs
+// is the smallest possible. A row without a column costs `unassigned`. An infinite cost forbids a
+// pair. Costs must not be negative. Returns the column of each row; -1 for a row without a column.
+// Uses the Hungarian method with potentials; the time is proportional to rows^2 (rows + columns).
 std::vector<int> assign(const Eigen::MatrixXd& cost, double unassigned);
 
-// The sum of costs that assign() minimises.
+// The sum of the costs of an assignment, which assign() minimises.
 double cost_of(const std::vector<int>& assignment, const Eigen::MatrixXd& cost, double unassigned);
 
 }  // namespace ols

@@ -1,4 +1,4 @@
-// The shortest line between two places on the ellipsoid, by GeographicLib (C. Karney).
+// The shortest line between two places on the ellipsoid. Computed by GeographicLib (C. Karney).
 #pragma once
 
 #include "geometry/wgs84.h"
@@ -7,7 +7,7 @@ namespace ols {
 
 struct Geodesic {
   double distance_m = 0.0;   // along the ellipsoid; ignores heights
-  double azimuth_rad = 0.0;  // at the first place, clockwise from true north, 0..2 pi
+  double azimuth_rad = 0.0;  // at `from`, clockwise from true north, 0..2 pi
 };
 
 Geodesic geodesic_between(const Geodetic& from, const Geodetic& to);

@@ -1,4 +1,4 @@
-// The lens: from a point in front of the camera to its pixel, and back.
+// The model of a lens: computes the pixel of a point, and the direction of a pixel.
 //
 // Camera frame: OpenCV's, x right, y down, z forward. Pixel (0, 0) is the centre of the top-left
 // pixel. A lens model maps a direction to a point on a plane, and the camera matrix K maps that
@@ -8,9 +8,9 @@
 //   fisheye      radius theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8): OpenCV's
 //   polynomial   radius theta (1 + k1 theta + k2 theta^2 + k3 theta^3 + k4 theta^4)
 //
-// Each model ends where its radius stops growing: beyond that, directions farther from the axis
-// would get the pixels of nearer ones. The two radial models extend behind the camera, up to theta
-// = 180 degrees.
+// Each model ends at the angle where its radius stops increasing: beyond this angle, directions
+// would get the same pixels as directions nearer to the axis. The fisheye and polynomial models
+// extend behind the camera, up to theta = 180 degrees.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@
 namespace ols {
 
 enum class LensModel { kPinhole, kFisheye, kPolynomial };
-// As in files, in the order of LensModel.
+// The names in files, in the order of LensModel.
 inline constexpr std::array<const char*, 3> kLensModelNames{"pinhole", "fisheye", "polynomial"};
 
 struct CameraIntrinsics {
@@ -37,15 +37,15 @@ struct CameraIntrinsics {
 };
 // The same camera without distortion.
 CameraIntrinsics undistorted(const CameraIntrinsics& intrinsics);
-// Names of coefficients that are not zero although the lens model does not use them: "p1, p2".
-// Empty if there are none.
+// The names of coefficients that are not zero although the lens model does not use them, for
+// example "p1, p2". Empty if there are none.
 std::string foreign_coefficients(const CameraIntrinsics& intrinsics);
 
 // K of the paper: [fx s cx; 0 fy cy; 0 0 1].
 Eigen::Matrix3d camera_matrix(const CameraIntrinsics& intrinsics);
 
-// P = K R [I | -C] (paper section 6), 3x4, for a pinhole without distortion. R takes world to
-// camera components, C is the camera centre in world coordinates [m].
+// P = K R [I | -C] (paper section 6), 3x4, for a pinhole without distortion. R takes world
+// components to camera components. C is the camera centre in world coordinates [m].
 Eigen::Matrix<double, 3, 4> projection_matrix(const Eigen::Matrix3d& K, const Eigen::Matrix3d& R,
                                               const Eigen::Vector3d& C);
 
@@ -53,13 +53,13 @@ Eigen::Matrix<double, 3, 4> projection_matrix(const Eigen::Matrix3d& K, const Ei
 // line in the world frame, pointing from the camera centre to the front.
 Eigen::Vector3d back_project(const Eigen::Matrix<double, 3, 4>& P, const Eigen::Vector2d& pixel);
 
-// The pixel of a point in camera coordinates [m]. nullopt where the model has no image: behind a
-// pinhole (z <= 0), and so far off the axis that the radius stops growing.
+// The pixel of a point in camera coordinates [m]. nullopt if the model has no image of the point:
+// it is behind a pinhole (z <= 0), or beyond the angle where the model ends.
 std::optional<Eigen::Vector2d> project(const CameraIntrinsics& intrinsics,
                                        const Eigen::Vector3d& p_cam);
 
-// The unit direction, in the camera frame, of the ray through a pixel; by Newton's method, to below
-// 1e-9 px. nullopt outside the model's image.
+// The unit vector, in the camera frame, of the ray through a pixel. Computed by Newton's method,
+// with an error below 1e-9 px. nullopt if the pixel is outside the model's image.
 std::optional<Eigen::Vector3d> unproject(const CameraIntrinsics& intrinsics,
                                          const Eigen::Vector2d& pixel);
 
@@ -71,8 +71,8 @@ Eigen::Matrix<double, 2, 3> project_jacobian(const CameraIntrinsics& intrinsics,
 Eigen::Matrix<double, 2, 4> project_by_coefficients(const CameraIntrinsics& intrinsics,
                                                     const Eigen::Vector3d& p_cam);
 
-// Full angle of view, horizontal and vertical [rad], through the principal point. Distortion of a
-// pinhole is ignored. At most 360 degrees.
+// Full angle of view through the principal point, horizontal and vertical [rad]; at most 2 pi. The
+// distortion of a pinhole is ignored.
 Eigen::Vector2d field_of_view(const CameraIntrinsics& intrinsics);
 
 }  // namespace ols

@@ -1,5 +1,6 @@
-// The part of a lens that depends on its model: the mapping between directions and the image plane,
-// which K maps to pixels. Only lens.cpp chooses by the model.
+// The part of a lens that differs between the lens models: the mapping between directions and
+// points on the image plane, which K maps to pixels. Only lens.cpp uses it, and chooses the model
+// there.
 #pragma once
 
 #include "geometry/lens.h"
@@ -9,18 +10,18 @@ namespace ols {
 struct LensProjection {
   // The names of the coefficients that the model uses.
   const char* coefficients;
-  // The image, on the plane, of a point in camera coordinates; nullopt if there is none.
+  // The image of a point in camera coordinates, on the plane; nullopt if there is none.
   std::optional<Eigen::Vector2d> (*plane)(const CameraIntrinsics&, const Eigen::Vector3d& p_cam);
-  // The unit direction whose image is this point on the plane, with an error below `tolerance_px`
-  // in the pixel; nullopt if there is none.
+  // The unit direction whose image is this point on the plane; nullopt if there is none. The error
+  // in the image is below `tolerance_px`.
   std::optional<Eigen::Vector3d> (*ray)(const CameraIntrinsics&, const Eigen::Vector2d& xy,
                                         double tolerance_px);
   // The pixel's derivatives with respect to the point, and with respect to k1 to k4.
   Eigen::Matrix<double, 2, 3> (*by_point)(const CameraIntrinsics&, const Eigen::Vector3d& p_cam);
   Eigen::Matrix<double, 2, 4> (*by_coefficients)(const CameraIntrinsics&,
                                                  const Eigen::Vector3d& p_cam);
-  // The angle off the axis at a radius on the plane; beyond the model's end, the largest angle.
-  // Distortion of a pinhole is ignored.
+  // The angle off the axis that corresponds to a radius on the plane. Beyond the radius at which
+  // the model ends, returns the model's largest angle. Distortion of a pinhole is ignored.
   double (*angle)(const CameraIntrinsics&, double radius);
 };
 

@@ -1,4 +1,5 @@
-// Medians. For an even number of values, the upper one of the two middle ones. Pure.
+// Medians. For an even number of values, the median is the upper one of the two middle values.
+// Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +18,7 @@ Number median(std::vector<Number> values) {
   return *middle;
 }
 
-// Of each coordinate by itself.
+// The median of each coordinate separately.
 inline Eigen::Vector2d median(const std::vector<Eigen::Vector2d>& points) {
   std::vector<double> x, y;
   for (const Eigen::Vector2d& point : points) {

@@ -1,5 +1,5 @@
-// The Military Grid Reference System: positions as spoken over the radio. By GeographicLib (C.
-// Karney).
+// The Military Grid Reference System: positions as they are spoken over the radio. Computed by
+// GeographicLib (C. Karney).
 #pragma once
 
 #include <string>
@@ -8,9 +8,10 @@
 
 namespace ols {
 
-// The south-western corner of the square that holds the position. 0 digits: "33UXQ", a square of
-// 100 km. 5 digits: "33UXQ1643251958", a square of 1 m. Near the poles the squares of the polar
-// grid are used. Throws std::invalid_argument for an invalid latitude or longitude.
+// The name of the square that contains the position, by its south-western corner. With 0 digits:
+// "33UXQ", a square of 100 km. With 5 digits: "33UXQ1643251958", a square of 1 m. Near the poles,
+// the squares of the polar grid are used. Throws std::invalid_argument for an invalid latitude or
+// longitude.
 std::string mgrs(const Geodetic& position, int digits);
 
 }  // namespace ols

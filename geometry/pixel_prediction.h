@@ -1,5 +1,5 @@
-// Predicts where a real unit (geometry/station_model.h) images a point or a direction, with the
-// derivatives that an adjustment and the propagation of its covariance need.
+// Predicts at which pixel a real unit (geometry/station_model.h) images a point or a direction.
+// Also computes the derivatives that an adjustment and the propagation of covariances need.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,28 +19,29 @@ struct HomogeneousPoint {
 struct PixelPrediction {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   // Derivatives with respect to the parameters, in the order of Parameter. The derivatives with
-  // respect to the position hold for a target that stays in place. They neglect that the horizon
-  // turns as the station moves (0.03 arc seconds per metre).
+  // respect to the position assume that the target stays in place. They neglect that the station's
+  // horizon turns if the station is moved (0.03 arc seconds per metre).
   Eigen::Matrix<double, 2, kModelParameters> by_parameters;
   Eigen::Matrix2d by_shafts;  // [px/rad] with respect to pan and tilt
   Eigen::Matrix<double, 2, 3> by_x;
   Eigen::Vector2d by_w;
-  Eigen::Vector3d ray_enu;  // x - w c: from the camera centre to the target; not a unit vector
+  // x - w c, with the camera centre c: from c towards the target; not a unit vector.
+  Eigen::Vector3d ray_enu;
 };
 
-// nullopt when the point is behind the camera or outside the lens model.
+// nullopt if the point is behind the camera or outside the lens model.
 std::optional<PixelPrediction> predict_pixel(const StationModel& model, const UnitReading& reading,
                                              const HomogeneousPoint& point);
 
-// The direction of a pixel, with its derivatives J. The parameters' covariance C becomes J C J' on
-// the tangent plane.
+// The direction of a pixel, with its derivatives J with respect to the parameters. If C is the
+// covariance of the parameters, J C J' is that of the direction, on the tangent plane.
 struct DirectionPrediction {
   AzimuthElevation direction;  // relative to the horizon at GROUND
   // 2 x parameters: derivatives of (cross-elevation, elevation).
   Eigen::Matrix<double, 2, kModelParameters> by_parameters;
 };
 
-// nullopt when the pixel cannot be unprojected.
+// nullopt if the pixel cannot be unprojected.
 std::optional<DirectionPrediction> predict_direction(const StationModel& model,
                                                      const UnitReading& reading,
                                                      const Eigen::Vector2d& pixel);

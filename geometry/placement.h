@@ -1,13 +1,13 @@
-// Chooses where to put stations: the best n of given places for an area to protect. Pure, and
-// deterministic for a given generator.
+// Chooses where to put stations: from given places, the n that measure positions in an area best.
+// Pure, and deterministic for a given generator.
 //
-// The value of a place is its information about each point of the area that it sees
-// (geometry/precision.h). The best choice leaves the fewest points undetermined; among equals, the
-// one with the least cost wins. The cost is the 3-D position error over the determined points: the
-// root of its mean square, or its maximum. The search starts from random choices. It improves each
-// choice by exchanging one place at a time for the best other place, until no exchange helps (V.
-// Fedorov's exchange algorithm). If the worst point counts, it first minimises a power mean of high
-// order: where several points share the largest error, no single exchange lowers the maximum.
+// A place contributes information about each point of the area that it sees (geometry/precision.h).
+// The best choice of places leaves the fewest points undetermined; among equals, the choice with
+// the lowest cost wins. The cost is the 3-D position error over the determined points: its root
+// mean square, or its maximum. The search starts from random choices. It improves each choice by
+// exchanging one place at a time for the best other place, until no exchange helps (V. Fedorov's
+// exchange algorithm). If the cost is the maximum, the search first minimises a power mean of high
+// order instead: if several points share the largest error, no single exchange lowers the maximum.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,10 @@
 
 namespace ols {
 
-// By default the worst point counts. If stations may stand anywhere around the area, kWorst gives
-// the paper's regular polygon on the edge. kMean gives the polygon only for four or more stations;
-// three stations it puts on one side of the area, at the expense of the far side.
+// kMean: the cost is the root mean square; kWorst: the maximum. If stations may stand anywhere
+// around the area, kWorst gives the paper's regular polygon on the edge. kMean gives this polygon
+// only for four or more stations. It puts three stations on one side of the area, and the other
+// side is measured worse.
 enum class PlacementGoal { kMean, kWorst };
 
 struct PlacementProblem {
@@ -39,16 +40,16 @@ struct PlacementProblem {
 
 struct Placement {
   std::vector<std::size_t> chosen;  // indices into `places`, ascending
-  // Number of points that the stations do not determine to within_m. Points at the place of a
-  // station are not counted.
+  // The number of points that the stations do not determine to within_m. Points at the position of
+  // a station are not counted.
   std::size_t undetermined = 0;
-  double mean_m = 0.0;   // root of the mean squared 3-D error over the other points
-  double worst_m = 0.0;  // the largest root mean squared 3-D error of these points
+  double mean_m = 0.0;   // root mean square of the 3-D error over the other points
+  double worst_m = 0.0;  // largest 3-D error (1-sigma) of these points
 
   bool determines_all() const { return undetermined == 0; }
 };
 
-// Called repeatedly during a search, with the number of starts completed and the total.
+// Called repeatedly during a search, with the number of completed starts and the total number.
 using TellStarts = std::function<void(std::size_t done, std::size_t all)>;
 
 // Throws std::invalid_argument if there are fewer places than stations, no area, or no station to

@@ -1,14 +1,15 @@
-// How accurately N stations can determine a position: the Cramer-Rao bound for one instant, known
-// before any measurement. It is exact on the ellipsoid: each station has its own horizon, and
-// distances are unlimited.
+// How accurately N stations can determine a position: the Cramer-Rao bound for one instant, which
+// can be computed before any measurement. The Earth's curvature is included: each station has its
+// own horizon, and distances are unlimited.
 //
 // Each station measures the direction to the target on its tangent plane (geometry/direction.h).
 // Its errors are independent of those of other stations. Errors of a station that are constant from
-// frame to frame are nuisance parameters with known deviations. After marginalising these, the
-// information about the position is the sum over stations of H' R^-1 H, where R is the covariance
-// of all errors of a station. The inverse of the information is the bound. (H. Van Trees,
-// Detection, Estimation, and Modulation Theory I, section 2.4.3: the bound with random nuisance
-// parameters, for the linear Gaussian case.)
+// frame to frame are nuisance parameters with known deviations. When they are marginalised, the
+// information about the position is the sum over stations of H' R^-1 H. H is the derivative of the
+// station's direction with respect to the position, and R is the covariance of all errors of the
+// station. The inverse of the information is the bound. (H. Van Trees, Detection, Estimation, and
+// Modulation Theory I, section 2.4.3: the bound with random nuisance parameters, for the linear
+// Gaussian case.)
 #pragma once
 
 #include <Eigen/Core>
@@ -23,9 +24,10 @@
 namespace ols {
 
 // 2x3 [rad/m]: derivative of the direction to a point with respect to the point's ECEF position.
-// The direction is on the tangent plane (cross-elevation, elevation) of the station's horizon. The
-// derivative with respect to the station's own position has the opposite sign. It neglects the
-// rotation of the horizon with the station's position (below 2e-7 rad/m outside the polar regions).
+// The direction is given on its tangent plane (cross-elevation, elevation), relative to the
+// station's horizon. With the opposite sign, it is the derivative with respect to the station's own
+// position; this neglects that the horizon rotates with the station's position (below 2e-7 rad/m
+// outside the polar regions).
 Eigen::Matrix<double, 2, 3> bearing_jacobian(const LocalFrame& station,
                                              const Eigen::Vector3d& p_ecef);
 
@@ -39,12 +41,12 @@ struct BearingPrecision {
 // H' R^-1 H of one station [1/m^2], ECEF components. R must be positive definite.
 Eigen::Matrix3d bearing_information(const BearingPrecision& bearing, const Eigen::Vector3d& p_ecef);
 
-// The inverse of an information matrix; nullopt when a direction is not determined (its share of
-// the information is below 1e-12).
+// The inverse of an information matrix. nullopt if a direction is not determined (its share of the
+// information is below 1e-12).
 std::optional<Eigen::Matrix3d> bound_from_information(const Eigen::Matrix3d& information);
 
-// The bound [m^2] of a target at p_ecef, in ECEF components; nullopt when the stations do not
-// determine it (fewer than two, or all on one line with the target).
+// The bound [m^2] of a target at p_ecef, in ECEF components. nullopt if the stations do not
+// determine the position (there are fewer than two, or all are on one line with the target).
 std::optional<Eigen::Matrix3d> cramer_rao_bound(std::span<const BearingPrecision> bearings,
                                                 const Eigen::Vector3d& p_ecef);
 
@@ -52,16 +54,17 @@ std::optional<Eigen::Matrix3d> cramer_rao_bound(std::span<const BearingPrecision
 struct PlannedStation {
   LocalFrame place{Geodetic{}};  // origin: the camera centre
   double white_rad = 0.0;  // 1-sigma of each axis of the tangent plane; independent in every frame
-  // Constant errors; the roll about the optical axis has no effect on the axis.
+  // Constant errors. mount_roll_rad has no effect here, because a roll about the optical axis does
+  // not move this axis.
   CalibrationSd calibration;
-  double clock_sd_s = 0.0;  // constant error; it acts like motion of the target during that time
+  double clock_sd_s = 0.0;  // constant error: the target moves during that time
   // Whether a point [m, ECEF] is in sight of the station. If empty, the land hides nothing.
   std::function<bool(const Eigen::Vector3d& p_ecef)> sees = {};
 
   bool in_sight(const Eigen::Vector3d& p_ecef) const { return !sees || sees(p_ecef); }
 };
 
-// The causes of a direction's error.
+// The sources of a direction's error.
 enum class ErrorSource { kWhite, kHeading, kTilt, kMounting, kPosition, kClock };
 inline constexpr std::array kErrorSources{ErrorSource::kWhite,    ErrorSource::kHeading,
                                           ErrorSource::kTilt,     ErrorSource::kMounting,
@@ -75,8 +78,8 @@ struct PlannedTarget {
   Eigen::Matrix3d velocity_moment_ecef = Eigen::Matrix3d::Zero();
 };
 
-// Covariance of a station's direction [rad^2] on the tangent plane, caused by one source. White
-// errors are divided by the number of independent exposures.
+// The covariance [rad^2] of a station's direction on the tangent plane that one source causes. The
+// variance of white errors is divided by the number of independent exposures.
 Eigen::Matrix2d source_covariance(const PlannedStation& station, ErrorSource source,
                                   const PlannedTarget& target, double exposures = 1.0);
 
@@ -90,7 +93,7 @@ struct PositionPrecision {
   std::array<Eigen::Matrix3d, kErrorSources.size()> parts_ecef{};
 };
 
-// Uses the stations that see the target; nullopt when they do not determine its position.
+// Uses the stations that see the target. nullopt if they do not determine its position.
 std::optional<PositionPrecision> position_precision(std::span<const PlannedStation> stations,
                                                     const PlannedTarget& target,
                                                     double exposures = 1.0);

@@ -1,9 +1,9 @@
-// The paper's precision theory (section 4.1): the displacement of a target, seen by two cameras,
-// that an error of p pixels causes. Plane geometry; lengths in metres, angles in radians.
+// The paper's precision theory (section 4.1): by how much an error of p pixels displaces a target
+// that two cameras see. Plane geometry; lengths in metres, angles in radians.
 //
-// Every error here is a worst case, not a standard deviation: the pixels are off by up to p. The
-// result is the largest distance from the truth that such an error can cause; infinity if it is
-// unbounded.
+// Every error here is a worst case, not a standard deviation. A camera's measurement is wrong by at
+// most p pixels. The result is the largest distance from the true position that this can cause;
+// infinity if the distance is unbounded.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace ols {
 
-// An error of a number of pixels (the paper's p, r and f).
+// An error in pixels, and the camera (the paper's p, r and f).
 struct PixelError {
   double pixels = 1.0;
   double pixel_m = 3.75e-6;  // r: the horizontal size of one pixel
@@ -21,18 +21,19 @@ struct PixelError {
   double tangent() const { return pixels * pixel_m / focal_length_m; }
 };
 
-// E = p r Z^2 / (f b - p r Z), exact. Two parallel cameras have a base b, and a target at depth Z
-// has a disparity that is p pixels too small. With p = 1 it is the depth resolution R.
+// E = p r Z^2 / (f b - p r Z), exact. Two parallel cameras are a base b apart. The disparity of a
+// target at depth Z is measured p pixels too small. With p = 1, E is the depth resolution R.
 double canonical_stereo_error_m(const PixelError& error, double base_m, double depth_m);
 
-// E = B tan(arctan(D / B) + arctan(p r / f)) - D, for cameras that can rotate. The target is
-// straight ahead of the first camera at distance D, and only the second camera is in error. The
-// paper prints arctan(r / f), which is p = 1.
+// E = B tan(arctan(D / B) + arctan(p r / f)) - D, for cameras that can rotate. The cameras are a
+// base B apart. The target is straight ahead of the first camera at distance D, and only the second
+// camera is in error. The paper prints arctan(r / f), which is the case p = 1.
 double rotating_pair_error_m(const PixelError& error, double base_m, double distance_m);
 
-// The largest distance from the target at which the two rays can meet, for errors of up to
-// angle_rad in both cameras, in the plane of the cameras and the target. The possible intersections
-// fill the overlap of two wedges. The overlap is convex, so the farthest point is a corner.
+// The largest distance from the target at which the two rays can intersect, for errors of up to
+// angle_rad in both cameras, in the plane of the cameras and the target. The possible rays of each
+// camera form a wedge, and the possible intersections fill the overlap of the two wedges. The
+// overlap is convex. The farthest point is therefore a corner.
 double pair_error_m(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                     const Eigen::Vector3d& target, double angle_rad);
 
@@ -42,21 +43,23 @@ struct Baseline {
   Eigen::Vector3d second = Eigen::Vector3d::Zero();
 };
 
-// t . n of the paper: t is the unit vector from the baseline's centre to the target, n the
-// baseline's unit normal in their common plane, on the target's side. This is the sine of the angle
-// between t and the baseline, 0..1. It is also 0 for a target at the baseline's centre.
+// t . n of the paper: t is the unit vector from the baseline's centre to the target; n is the unit
+// normal of the baseline, in the plane of baseline and target and on the target's side. t . n is
+// the sine of the angle between t and the baseline, 0..1. It is defined as 0 for a target at the
+// baseline's centre.
 double normal_component(const Baseline& baseline, const Eigen::Vector3d& target);
 
-// Returns i = argmax t_i . n_i; of equal values, the first. Throws std::invalid_argument without
-// pairs.
+// Returns the index i of the baseline with the largest t_i . n_i; among equal values, the first.
+// Throws std::invalid_argument if there are no baselines.
 std::size_t best_baseline(std::span<const Baseline> baselines, const Eigen::Vector3d& target);
 
-// The target of a row of the paper's Table 1, in the plane (x along the base, y across it),
-// relative to the base's centre. The paper does not say from where the distance is measured, nor on
-// which side of the base's normal the target is. `side` 0: the distance is from the centre of the
-// base. Otherwise the distance is from the first camera (at x = -base/2), and the target is on the
-// side of that camera (-1) or on the other side (+1). alpha_rad: the angle at the base's centre,
-// from its normal.
+// The position of the target in a row of the paper's Table 1: in the plane (x along the base, y
+// across it), relative to the base's centre. The paper does not say from where the distance is
+// measured, nor on which side of the base's normal the target is. `side` selects an interpretation.
+// 0: the distance is measured from the centre of the base. -1 or +1: the distance is measured from
+// the first camera (at x = -base/2), and the target is on the side of that camera (-1) or on the
+// other side (+1). alpha_rad: the angle between the base's normal and the target, at the base's
+// centre.
 Eigen::Vector3d table_target(double base_m, double distance_m, double alpha_rad, int side);
 
 }  // namespace ols

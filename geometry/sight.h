@@ -1,4 +1,5 @@
-// Computes the line of sight and its covariance from a pixel and the PTU angles; also the inverse.
+// Computes the line of sight and its covariance from a pixel and the PTU angles, and the pixel or
+// the angles for a given point.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,10 +15,10 @@ namespace ols {
 // Calibration errors, 1-sigma. They are systematic: the same in every frame.
 struct CalibrationSd {
   double heading_rad = 0.0;
-  double tilt_rad = 0.0;        // for each of the two axes of ORIGIN
+  double tilt_rad = 0.0;        // of each of the two horizontal axes of ORIGIN
   double mount_rad = 0.0;       // of the camera, about each axis perpendicular to the optical axis
   double mount_roll_rad = 0.0;  // about the optical axis
-  double position_m = 0.0;      // of the station, for each of east, north, up
+  double position_m = 0.0;      // of the station, each of east, north, up
 };
 
 // A station's calibrated geometry.
@@ -32,7 +33,8 @@ struct StationGeometry {
 struct PixelSight {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
-  // The same in every frame: from the lens; and 1-sigma of each coordinate from the designation
+  // The same in every frame: the covariance that the lens causes, and (aim_sd_px) the 1-sigma of
+  // each coordinate that the designation causes.
   Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();
   double aim_sd_px = 0.0;
   PanTilt angles;
@@ -40,7 +42,7 @@ struct PixelSight {
   Eigen::Matrix2d angles_systematic_rad2 = Eigen::Matrix2d::Zero();  // the same in every frame
 };
 
-// The line of sight of a pixel, with first-order covariances; nullopt when the pixel cannot be
+// The line of sight of a pixel, with first-order covariances. nullopt if the pixel cannot be
 // unprojected.
 std::optional<LineOfSight> sight(const StationGeometry& station, const PixelSight& measurement);
 
@@ -50,19 +52,19 @@ struct View {
   double distance_m = 0.0;  // from the camera centre
 };
 
-// The inverse of sight() at given PTU angles: the pixel of a point; nullopt when the point is
-// behind the camera.
+// The inverse of sight() at given PTU angles: the pixel of a point. nullopt if the point is behind
+// the camera.
 std::optional<View> view(const StationGeometry& station, const PanTilt& angles,
                          const Eigen::Vector3d& p_ecef);
 
-// The inverse of sight() with free PTU angles: the angles that put the point on the given pixel
+// The inverse of sight() for a given pixel: the PTU angles at which the point appears at this pixel
 // (default: where the optical axis meets the image). The lever arms of the chain are included.
-// nullopt when no pan and tilt reach the point.
+// nullopt if no pan and tilt angles reach the point.
 std::optional<PanTilt> aim_at(const StationGeometry& station, const Eigen::Vector3d& p_ecef,
                               const std::optional<Eigen::Vector2d>& pixel = std::nullopt);
 
-// The PTU angles that point the optical axis in a direction at infinity, relative to the horizon at
-// the camera centre.
+// The PTU angles at which the optical axis points in this direction (relative to the horizon at the
+// camera centre). nullopt if no pan and tilt angles reach it.
 std::optional<PanTilt> aim_along(const StationGeometry& station, const AzimuthElevation& direction);
 
 // The direction of the optical axis, relative to the horizon at the camera centre.
@@ -71,8 +73,9 @@ AzimuthElevation optical_axis(const StationGeometry& station, const PanTilt& ang
 // Camera centre in ECEF [m].
 Eigen::Vector3d camera_centre_ecef(const StationGeometry& station, const PanTilt& angles);
 
-// Homography K R_2 R_1^T K^-1: maps pixels of a frame exposed at PTU angles `from` to pixels of a
-// frame exposed at `to`. It holds for points at infinity, without distortion.
+// Homography K R_2 R_1^T K^-1: maps pixels of a frame exposed at the PTU angles `from` to pixels of
+// a frame exposed at the PTU angles `to`. It is valid for points at infinity and a lens without
+// distortion.
 Eigen::Matrix3d rotation_homography(const StationGeometry& station, const PanTilt& from,
                                     const PanTilt& to);
 

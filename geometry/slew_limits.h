@@ -1,5 +1,5 @@
-// The limits within which a station accepts slews, and angles from operators. The fusion and
-// ols-ctl keep to them.
+// The limits within which a station accepts slews and operators' commands. The fusion and ols-ctl
+// send only commands within these limits.
 #pragma once
 
 #include "geometry/angles.h"
@@ -7,19 +7,19 @@
 namespace ols {
 
 inline constexpr double kSlewRateLimit_rad_s = 1.5;  // about each axis
-// Largest time between the present and the effect of a slew, in either direction.
+// The largest time between the present and the instant for which a slew is meant, before or after.
 inline constexpr double kSlewLead_s = 1.0;
 
-// The longest time for which a prediction of what the land hides may hold.
+// The longest time for which a notice that the land hides a target may hold.
 inline constexpr double kOcclusionHolds_s = 15.0;
 
-// The largest pan and tilt, either way, as the PTU counts them. More than this is a typing error:
-// the unit would turn by whole turns.
+// The largest pan and tilt angles, positive or negative, as the PTU reports them. A larger angle is
+// a typing error: the unit would make whole turns.
 inline constexpr double kPointPanLimit_rad = radians(360.0);
 inline constexpr double kPointTiltLimit_rad = radians(180.0);
 
-// For joystick commands: the largest rate about each axis, and how long one command keeps the unit
-// moving.
+// Joystick commands: the largest rate about each axis, and how long one command keeps the unit in
+// motion.
 inline constexpr double kRateLimit_rad_s = 1.5;
 inline constexpr double kRateLease_s = 0.3;
 

@@ -1,5 +1,5 @@
-// A station whose parameters come from an adjustment (docs/calibration.md): sight() with the full
-// covariance of the parameters, and the inverse of sight().
+// A station whose parameters come from an adjustment (docs/calibration.md). Provides sight() with
+// the full covariance of the parameters, and the inverse of sight().
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ struct CountedSight {
   // If `approach` is 0 (unknown), the backlash is part of the systematic covariance.
   UnitReading reading;
   Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)
-  // The same in every frame, without what the calibration has.
+  // The same in every frame; without the errors that the calibration's covariance contains.
   Eigen::Matrix2d angles_systematic_rad2 = Eigen::Matrix2d::Zero();
 };
 
@@ -35,19 +35,20 @@ std::optional<Eigen::Matrix2d> systematic_covariance(const StationCalibration& c
                                                      const UnitReading& reading,
                                                      const Eigen::Vector2d& pixel);
 
-// Like sight() of geometry/sight.h. The systematic covariance is J C J' plus those of
-// the designation and of angles_systematic_rad2.
+// Like sight() of geometry/sight.h. The systematic covariance is the sum of J C J', that of the
+// designation, and that of angles_systematic_rad2.
 std::optional<LineOfSight> sight(const StationCalibration& calibration,
                                  const CountedSight& measurement);
 
-// The counts at which a shaft has this angle [rad]. `approach`: direction of the last motion (1,
-// -1; 0: the middle of the backlash). Solved by Newton's method on shaft_angle(), whose derivative
-// differs from 1 by some thousandths.
+// The counts at which a shaft has this angle [rad]; the inverse of shaft_angle(). `approach`:
+// direction of the last motion (1 or -1; 0: the middle of the backlash). Solved by Newton's method,
+// which converges fast because the derivative of shaft_angle() differs from 1 only by some
+// thousandths.
 double counts_for_shaft(const AxisModel& axis, int sign, double zero_rad, double shaft_rad,
                         int approach);
 
-// The inverse of corrected_angles() for a unit at rest: the counts at which a unit with these
-// errors points where an ideal unit points at these angles.
+// The inverse of corrected_angles() for a unit at rest: the counts at which this unit, with its
+// errors, has the direction that an ideal unit has at the angles `corrected`.
 struct UnitCounts {
   double pan = 0.0, tilt = 0.0;
 };

@@ -1,16 +1,17 @@
-// The model of a real station: eq. (1) with the errors of a pan-tilt unit's gears, bearings and
-// clock. If all errors are zero, it is the chain of geometry/kinematic_chain.h.
+// The model of a real station: the chain of geometry/kinematic_chain.h, with the errors of a
+// pan-tilt unit's gears, bearings and time stamps.
 //
-// The angle theta of an axis' shaft satisfies
+// The shaft angle theta of an axis is
 //
 //   theta = s q n + zero + sum_k (A_k cos k theta + B_k sin k theta)
 //           + W_c cos(m theta) + W_s sin(m theta) + b d / 2
 //
-// n: counts at the exposure. q: 2 pi divided by the counts of a turn (exact, unlike the rounded
-// resolution that a unit prints). s: the axis' sign. k = 1, 2: eccentricity of the worm wheel and
-// of the axis. m: number of teeth of the worm wheel; the worm makes one turn for each tooth. b:
-// backlash. d = 1 or -1: sign of the last motion in counts. In the harmonic terms, s q n + zero
-// replaces theta. The worm wheel is a closed circle, so there is no error of scale.
+// n: counts at the exposure. q: 2 pi divided by the counts per turn (exact, unlike the rounded
+// resolution that a unit reports). s: the sign of the axis. k = 1, 2: eccentricity of the worm
+// wheel and of the axis. m: number of teeth of the worm wheel; the worm makes one turn for each
+// tooth. b: backlash. d = 1 or -1: sign of the last motion in counts. In the cosines and sines, s q
+// n + zero is used for theta. There is no error of scale, because the worm wheel is a closed
+// circle.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +26,7 @@ struct AxisModel {
   int worm_teeth = 70;
   double cos1_rad = 0.0, sin1_rad = 0.0, cos2_rad = 0.0, sin2_rad = 0.0;
   double worm_cos_rad = 0.0, worm_sin_rad = 0.0;
-  double backlash_rad = 0.0;  // of the shaft, between the two directions of approach
+  double backlash_rad = 0.0;  // shaft angle between the two directions of approach
 };
 
 // The unit's reading of one axis, at the time stamp of a frame.
@@ -94,12 +95,12 @@ struct ShaftAngle {
 ShaftAngle shaft_angle(const AxisModel& axis, int sign, double zero_rad, const AxisReading& reading,
                        double exposure_offset_s);
 
-// The angles that an ideal unit would report with its shafts at the same angles. Pass them to
-// sight(), view() and the kinematic chain, which assume an ideal unit.
+// The angles that an ideal unit would report if its shafts had the same angles as this unit's.
+// sight(), view() and the kinematic chain assume an ideal unit: give them these angles.
 PanTilt corrected_angles(const StationModel& model, const UnitReading& reading);
 
-// The model with `by` added to its parameters. Tilts and heading then refer to the horizon at the
-// changed position.
+// The model with `by` added to its parameters. Its tilts and heading are relative to the horizon at
+// the changed position.
 StationModel changed(const StationModel& model, const ModelParameters& by);
 
 }  // namespace ols

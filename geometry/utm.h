@@ -1,9 +1,9 @@
-// Universal Transverse Mercator: the coordinates used by land registers and surveyors. By
+// Universal Transverse Mercator: the coordinates that land registers and surveyors use. Computed by
 // GeographicLib (C. Karney).
 //
 // Grid north is not true north: a grid bearing plus the convergence is the true azimuth. A grid
 // distance is the true distance times the scale. Heights in land registers are usually above mean
-// sea level; here they are ellipsoidal, as everywhere.
+// sea level; heights here are above the ellipsoid, as everywhere in this project.
 #pragma once
 
 #include "geometry/wgs84.h"
@@ -23,12 +23,12 @@ struct UtmPoint {
   double scale = 1.0;            // grid distance over true distance on the ellipsoid
 };
 
-// Throws std::invalid_argument with the reason if the zone does not exist or the coordinates are
-// outside it.
+// Throws std::invalid_argument with the reason if the zone does not exist, or if the coordinates
+// are outside the zone.
 Geodetic geodetic_from_utm(const Utm& position, double height_m);
 
-// Uses the standard zone of the place. Throws std::invalid_argument near the poles, where there is
-// no zone.
+// Uses the standard zone of the position. Throws std::invalid_argument near the poles, where there
+// is no zone.
 UtmPoint utm_from_geodetic(const Geodetic& position);
 
 }  // namespace ols

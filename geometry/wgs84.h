@@ -1,5 +1,5 @@
-// Geographic positions (WGS84, ellipsoidal height), Earth-centred Earth-fixed and local frames.
-// Computed by GeographicLib (C. Karney).
+// Conversion between geographic positions (WGS84, ellipsoidal height), Earth-centred Earth-fixed
+// (ECEF) positions and local frames. Computed by GeographicLib (C. Karney).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,10 @@ struct Geodetic {
 // Earth-centred Earth-fixed position [m].
 Eigen::Vector3d ecef_from_geodetic(const Geodetic& position);
 
-// The inverse of ecef_from_geodetic(); accurate to nanometres far beyond the atmosphere.
+// The inverse of ecef_from_geodetic(); accurate to nanometres even far beyond the atmosphere.
 Geodetic geodetic_from_ecef(const Eigen::Vector3d& p_ecef);
 
-// Rotation that takes east-north-up components at this latitude and longitude to ECEF components.
+// The rotation that takes east-north-up components at this position to ECEF components.
 Eigen::Matrix3d R_ecef_enu(const Geodetic& position);
 Eigen::Matrix3d R_ecef_enu(const Eigen::Vector3d& p_ecef);
 

@@ -1,5 +1,5 @@
-// A calibrated zoom lens: the camera at measured zoom positions, and interpolated between them.
-// Pure.
+// A calibrated zoom lens: the camera's parameters at measured zoom positions, interpolated between
+// them. Pure.
 #pragma once
 
 #include <vector>
@@ -8,27 +8,28 @@
 
 namespace ols {
 
-// The camera at one zoom position (0 widest .. 1 longest), with the errors that remain after its
-// calibration.
+// The camera at one zoom position (0 is the widest view, 1 the longest focal length), with the
+// errors that remain after calibration.
 struct ZoomPoint {
   double position = 0.0;
   CameraIntrinsics camera;
-  double focal_sd_px = 0.0;   // 1-sigma of fx and fy; their errors are the same
+  double focal_sd_px = 0.0;   // 1-sigma of fx and fy, which have the same error
   double centre_sd_px = 0.0;  // 1-sigma of the principal point, each axis
 };
 
 class ZoomTable {
  public:
-  // `points`: at least two. Throws std::invalid_argument, naming the point (counted from 1), if
-  // positions do not rise or are outside 0..1, or if a focal length is not positive or does not
-  // rise.
+  // `points`: at least two. Throws std::invalid_argument that names the point (counted from 1) if
+  // positions do not increase or are outside 0..1, or if focal lengths are not positive or do not
+  // increase.
   explicit ZoomTable(std::vector<ZoomPoint> points);
 
-  // Between the points, the logarithm of the focal length and all other values are linear in the
-  // position. Each deviation is the larger of those at the two neighbouring points. The focal
-  // length's deviation also includes the curvature between the points (from the difference of the
-  // slopes on both sides) and the 1-sigma of the position. Outside the table, the values of the
-  // nearest point apply.
+  // The camera at a zoom position. position_sd: 1-sigma of the position. Between the points, the
+  // logarithm of the focal length and all other values are interpolated linearly. Each deviation is
+  // the larger of those at the two neighbouring points. The deviation of the focal length also
+  // includes the error of the interpolation (from the change of slope between neighbouring
+  // intervals) and the effect of position_sd. Outside the table, the values of the nearest point
+  // are used.
   ZoomPoint at(double position, double position_sd) const;
 
   const std::vector<ZoomPoint>& points() const { return points_; }

@@ -1,6 +1,7 @@
-// Finds the crosses of a rectification target: upright, with dark arms on a light board; one alone,
-// or two side by side. The search correlates the picture with a drawn cross of the expected size
-// (normalised correlation). The position is the intersection of the two arms' middle lines. Pure.
+// Finds the crosses of a rectification target: one, or two side by side. Each is upright, with dark
+// arms on a light board. The search correlates the picture with a drawn cross of the expected size
+// (normalised correlation). The position of a cross is the intersection of the middle lines of its
+// two bars. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +9,7 @@
 
 namespace ols::calibration {
 
-// The expected size in the picture [px].
+// The expected size of the crosses in the picture [px].
 struct CrossSize {
   double arm_px = 0.0;    // from the centre to the end of an arm
   double width_px = 0.0;  // width of an arm
@@ -21,7 +22,7 @@ struct Crosses {
     kNothing,  // no cross stands out
     kOne,      // one cross where two are expected
     kScale,    // larger or smaller than the distance allows
-    kBlurred,  // position worse than a third of a pixel
+    kBlurred,  // the position is less exact than a third of a pixel
   };
   Refusal refusal = Refusal::kNone;
   double scale = 1.0;  // found size over expected size

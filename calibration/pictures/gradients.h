@@ -1,4 +1,4 @@
-// Gradients of a gray picture, and their noise. Pure.
+// Computes the gradients of a gray picture, and their noise. Pure.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,7 +7,7 @@ namespace ols::calibration {
 
 // The 1-sigma [gray] of the noise from pixel to pixel, after J. Immerkaer, Fast Noise Variance
 // Estimation, Computer Vision and Image Understanding 64 (1996), with the median instead of the
-// mean, so that edges do not count. Fine texture makes the result too large.
+// mean, which edges hardly change. In a fine texture, the result is too large.
 double noise_of(const cv::Mat& gray);
 
 struct Gradients {

@@ -1,9 +1,9 @@
-// Finds the parallel, nearly level lines of a rectification target, each to a fraction of a pixel.
-// Pure.
+// Finds the parallel, nearly level lines of a rectification target, with an accuracy of a fraction
+// of a pixel. Pure.
 //
-// A Radon transform sums the gradient along all nearly level lines. It finds lines through noise
-// and gaps. Column by column, the centroid of each edge is computed, and a line is fitted to the
-// centroids. Hidden parts are left out.
+// A Radon transform sums the gradient along all nearly level lines. It finds lines in spite of
+// noise and gaps. Then the centroid of each edge is computed in each column, and a line is fitted
+// to the centroids. Hidden parts of an edge are left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,9 +12,9 @@
 
 namespace ols::calibration {
 
-// One edge, represented by two points, one radius of gyration to the left and to the right of the
-// edge's middle. The errors of these points across the line are independent. If the lens bends the
-// line evenly, it still passes through both.
+// One edge, represented by two points: one radius of gyration to the left of the edge's middle, and
+// one to the right. At this distance, the errors of the two points across the line are independent.
+// If the lens bends the line evenly, the bent line still passes through both points.
 struct LevelEdge {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero(), right_px = Eigen::Vector2d::Zero();
   double sd_px = 0.0;  // 1-sigma of each point, across the line

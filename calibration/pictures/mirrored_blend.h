@@ -1,6 +1,6 @@
-// The picture with which the paper levels a camera about its optical axis (section 4.2): the blend
-// of a picture with its mirror image. If the camera is level, level lines continue without a break.
-// If it is rolled, they cross their mirror images in the middle column. Pure.
+// The blend of a picture with its mirror image; the paper uses it to level a camera about its
+// optical axis (section 4.2). If the camera is level, level lines continue without a break. If the
+// camera is rolled, level lines cross their mirror images in the middle column. Pure.
 #pragma once
 
 #include <opencv2/core.hpp>

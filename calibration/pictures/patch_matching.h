@@ -1,5 +1,5 @@
 // Least-squares matching (A. Gruen, Adaptive Least Squares Correlation, 1985): finds the structure
-// of a small patch in another picture, to a fraction of a pixel. Pure.
+// that a small patch shows in another picture, to a fraction of a pixel. Pure.
 //
 // A coarse search by normalised correlation comes first, then least squares for translation, gain
 // and offset.
@@ -12,13 +12,14 @@
 namespace ols::calibration {
 
 struct Patch {
-  // Float, smoothed; square with an odd side, so that the point is the middle pixel.
+  // Float, smoothed; a square with an odd side. The middle pixel is the point.
   cv::Mat pixels;
 };
 
-// Cuts the patch around a point; nullopt if it does not fit into the picture. `turn` maps the
-// patch's coordinates to those of the picture to be searched, in case that picture shows the
-// surroundings turned or sheared.
+// Cuts the patch around a point; nullopt if the patch is not entirely inside the picture. The patch
+// is resampled to the orientation of the picture that will be searched: `turn` maps offsets in that
+// picture to offsets in `gray`. It differs from the identity if one picture shows the scenery
+// turned or sheared relative to the other.
 std::optional<Patch> cut_patch(const cv::Mat& gray, const Eigen::Vector2d& centre_px, int half_px,
                                const Eigen::Matrix2d& turn = Eigen::Matrix2d::Identity());
 
@@ -26,8 +27,8 @@ struct PatchMatch {
   enum class Refusal {
     kNone,
     kOutside,      // the point is outside the picture
-    kNoStructure,  // the patch is a uniform surface, or an edge along which it could slide
-    kNotFound,     // no similar place
+    kNoStructure,  // the patch shows a uniform surface, or one edge along which it could slide
+    kNotFound,     // no place is similar
     kAmbiguous,    // two places are almost equally similar
   };
   Refusal refusal = Refusal::kNone;
@@ -38,7 +39,7 @@ struct PatchMatch {
 };
 const char* to_string(PatchMatch::Refusal refusal);
 
-// Searches within `reach_px` of a point, in each coordinate.
+// Searches for the patch within `reach_px` of a point, in each coordinate.
 PatchMatch find_patch(const Patch& patch, const cv::Mat& gray, const Eigen::Vector2d& near_px,
                       double reach_px);
 

@@ -1,5 +1,5 @@
-// Reads a rectification target's ruler: black and white bars of equal height on a vertical board.
-// One black bar, three times as high, marks the zero. Pure.
+// Reads the ruler of a rectification target. The ruler has black and white bars of equal height on
+// a vertical board. One black bar, which is three times as high, marks the zero. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,17 +13,18 @@ struct RulerReading {
     kNone,
     kNothing,  // no bars found
     kScale,    // the height of the bars does not match the distance
-    kNoZero,   // the zero is hidden or outside the picture
+    kNoZero,   // the zero bar is hidden or outside the picture
     kShort,    // the ruler does not reach the requested row
-    kUneven,   // the bars are not even: half hidden, blurred, or no ruler
+    kUneven,   // the bars are not equal: half hidden, blurred, or no ruler
   };
   Refusal refusal = Refusal::kNone;
   double scale = 1.0;  // found height of a bar over the expected height
   double x_px = 0.0;   // column of the ruler
-  // The reading at the requested row, counted from the zero's middle, in units of a bar's height.
+  // The reading at the requested row, counted from the middle of the zero bar, in units of a bar's
+  // height.
   double bars = 0.0;
   double sd_px = 0.0;    // 1-sigma of the reading, as a distance in the picture
-  double zero_px = 0.0;  // row of the middle of the zero
+  double zero_px = 0.0;  // row of the middle of the zero bar
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(RulerReading::Refusal refusal);

@@ -1,9 +1,9 @@
 // Finds the same points of the scenery in overlapping pictures of a sweep. Pure.
 //
-// The chain predicts where a point appears in another picture, to within some tens of pixels. For
-// each pair of pictures, the offset common to all points is found first. Then each point is located
-// to a fraction of a pixel, by least-squares matching. Points that move relative to the others
-// (cars, branches, clouds) are left out.
+// From the PTU's angles, the kinematic chain predicts where a point appears in another picture, to
+// within some tens of pixels. For each pair of pictures, the offset that is common to all points is
+// found first. Then least-squares matching locates each point to a fraction of a pixel. Points that
+// move relative to the others (cars, branches, clouds) are left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,10 +18,10 @@
 namespace ols::calibration {
 
 struct SceneTrackOptions {
-  double reach_px = 40.0;     // largest error of the prediction from picture to picture
+  double reach_px = 40.0;     // largest error of the prediction
   int points_a_picture = 40;  // largest number of points in a picture
   int patch_half_px = 9;
-  double agree_px = 1.0;  // largest deviation of a point from the common motion of its pair
+  double agree_px = 1.0;  // largest deviation of a point from the common offset of a pair
 };
 
 struct SceneSighting {
@@ -33,7 +33,7 @@ struct SceneSighting {
 
 struct ScenePair {
   std::size_t first = 0, second = 0;
-  int matched = 0, moved = 0;  // numbers of points that follow the common motion or do not
+  int matched = 0, moved = 0;  // numbers of points that have the common offset or do not
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // median of found minus predicted position
 };
 
@@ -45,10 +45,10 @@ class SceneTracks {
   // Adds a picture with the PTU's angles at its exposure.
   void add(const cv::Mat& gray, const PanTilt& angles);
 
-  // Points seen in at least two pictures, sorted by picture.
+  // The sightings of points seen in at least two pictures, sorted by picture.
   std::vector<SceneSighting> sightings() const;
   const std::vector<ScenePair>& pairs() const { return pairs_; }
-  // Number of pairs in which more points moved than stayed, because the scene is not still.
+  // The number of pairs in which more points moved than stayed: the scene is not still there.
   int moving_pairs() const;
 
  private:

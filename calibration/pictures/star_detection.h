@@ -1,6 +1,6 @@
-// Finds stars in a picture of the night sky: their centres with 1-sigma, and their brightness above
-// the background. Hot pixels, streaks (aircraft, satellites) and lit surfaces are rejected and
-// counted. Pure.
+// Finds stars in a picture of the night sky, with their centres and their brightness above the
+// background. Hot pixels, streaks (aircraft, satellites) and lit surfaces are rejected and counted.
+// Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +24,8 @@ struct StarField {
 
 struct StarDetectionOptions {
   double threshold = 5.0;  // in units of the noise of the smoothed picture
-  double widest_px = 4.0;  // largest 1-sigma of a star's image; anything larger is a surface
-  double longest = 2.0;    // largest ratio of length to width; anything longer is a streak
+  double widest_px = 4.0;  // largest 1-sigma width of a star's image; anything wider is a surface
+  double longest = 2.0;    // largest ratio of length to width; with more, it is a streak
 };
 
 // `gray`: 8-bit or 16-bit.

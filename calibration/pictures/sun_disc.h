@@ -10,8 +10,8 @@ namespace ols::calibration {
 struct SunDisc {
   enum class Refusal {
     kNone,
-    kNoDisc,     // nothing bright in front of something dark, or several discs
-    kAtTheEdge,  // the disc is at the edge of the picture
+    kNoDisc,     // no bright disc on a dark background, or several
+    kAtTheEdge,  // the disc is at the border of the picture
     kOtherSize,  // not the sun, or another focal length
     kNotRound,   // clouds, or too long an exposure
   };
@@ -23,10 +23,11 @@ struct SunDisc {
 };
 const char* to_string(SunDisc::Refusal refusal);
 
-// `focal_px` gives the expected radius to within 3 % (the sun's distance changes it by 1.7 %).
+// `focal_px`: the focal length. It determines the expected radius; the found radius may differ by 3
+// % (the changing distance of the sun causes 1.7 %).
 SunDisc find_sun(const cv::Mat& gray, double focal_px);
 
-// Whether neither sky nor scenery is visible, which means that a solar filter is on the lens.
+// Whether neither sky nor scenery is visible: a solar filter is then on the lens.
 bool is_black(const cv::Mat& gray);
 
 }  // namespace ols::calibration

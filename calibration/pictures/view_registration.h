@@ -1,11 +1,11 @@
 // Finds the shift of a view relative to a stored picture of the same view, even from another day
 // and in different light. Pure.
 //
-// Edge orientations are compared, not brightness: only the direction of each gradient counts,
-// weighted by its strength above the noise. The angle of the direction is doubled, so that an edge
-// lit from the other side is the same edge. The spectra of the whole pictures are correlated first,
-// then those of tiles. Only the tiles that agree count, because moved parts of the scene are a
-// minority.
+// Orientations of edges are compared, not brightness: of each gradient, only the direction is used,
+// weighted by the gradient's strength above the noise. The angle of the direction is doubled: an
+// edge that is lit from the other side, whose gradient is reversed, then counts as the same edge.
+// First the spectra of the whole pictures are correlated, then those of tiles. Only the majority of
+// tiles that agree is used: the other tiles show parts of the scene that have moved.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@ struct ViewRegistration {
   enum class Refusal {
     kNone,
     kSize,         // the sizes differ or are too small
-    kNoStructure,  // too few tiles contain edges: sky, fog, darkness
-    kNoAgreement,  // another view, or too much of it has moved
+    kNoStructure,  // too few tiles contain edges: sky, fog or darkness
+    kNoAgreement,  // another view, or too much of the scene has moved
   };
   Refusal refusal = Refusal::kNone;
   // Shift [px] from the reference to the view: a point at p in the reference is at p + shift in the

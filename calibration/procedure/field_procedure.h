@@ -1,6 +1,6 @@
-// A whole procedure: runs its stages in order, then asks a person what to do with the result. The
-// caller carries out the orders, runs the adjustment when the stages are complete, and stores the
-// result. Pure.
+// A complete calibration procedure. Runs its stages in order, then asks a person what to do with
+// the result. The caller carries out the orders, runs the adjustment when the stages are complete,
+// and stores the result. Pure.
 #pragma once
 
 #include <algorithm>
@@ -27,11 +27,12 @@ enum class Outcome { kRunning, kAccepted, kKeptOld, kAborted };
 class FieldProcedure {
  public:
   using Redo = std::function<void(const std::string& reference)>;
-  // `redo`: called to make the last stage sight one reference again.
+  // `redo`: called when the person wants one reference to be sighted again; it must make the last
+  // stage do so.
   FieldProcedure(std::vector<std::unique_ptr<Stage>> stages, Redo redo);
 
-  // nullopt if the stages are complete and adjusted() must be called next, or if the procedure has
-  // ended.
+  // The current order. nullopt if the stages are complete and adjusted() must be called next, or if
+  // the procedure has ended.
   std::optional<Order> next();
   void taken(const Taken& picture) { stage().taken(picture); }
   void seen(const Taken& picture) { stage().seen(picture); }

@@ -1,7 +1,8 @@
-// The stage in which landmarks are sighted together with a person. The person points at the first
-// landmark. The unit then turns to each of the others, the most helpful one first. A crosshair
-// snaps to the landmark, and the person confirms. A second round runs automatically, from the other
-// direction of approach. At the end the unit returns to the first landmark, as a check. Pure.
+// The stage in which landmarks are sighted with the help of a person. The person points at the
+// first landmark in a picture. The unit then turns to each of the other landmarks, the most helpful
+// one first. At each, a crosshair snaps to the landmark, and the person confirms. A second round
+// runs automatically, from the other direction of approach. At the end, the unit returns to the
+// first landmark, to check that nothing has moved. Pure.
 #pragma once
 
 #include <string>
@@ -19,10 +20,10 @@ using Landmark = Place;
 
 class LandmarkStage : public Stage {
  public:
-  // `model`: the station as far as it is known. The heading in it may have any value, because the
-  // first sighting determines it. `rounds`: number of sightings of each landmark. Landmarks at
-  // which the unit cannot look are left out, with a remark. `adviser`: chooses the order after the
-  // first landmark; if null, the given order is used.
+  // `model`: the station as far as it is known. Its heading may have any value, because the first
+  // sighting determines the heading. `rounds`: number of sightings of each landmark. Landmarks at
+  // which the unit cannot look are left out, with a remark. `adviser`: ranks the landmarks after
+  // the first one; if null, the given order is used.
   LandmarkStage(const StationModel& model, std::vector<Landmark> landmarks, int rounds,
                 Adviser adviser = nullptr);
 
@@ -35,8 +36,8 @@ class LandmarkStage : public Stage {
 
   // How far the first landmark appears to have moved at the end [rad]; nullopt before the end.
   std::optional<double> closing_rad() const { return closing_rad_; }
-  // Sights this landmark again, together with the person. Its old sightings count until the person
-  // confirms the new one.
+  // Sights this landmark again, with the help of the person. The old sightings stay valid until the
+  // person confirms the new one.
   void redo(const std::string& name);
   const StationModel& model() const { return model_; }
 
@@ -52,12 +53,12 @@ class LandmarkStage : public Stage {
     Landmark landmark;
     std::optional<Confirmed> confirmed;
     std::vector<Observation> sightings;
-    bool to_be_replaced = false;  // new sightings will replace these
+    bool to_be_replaced = false;  // the next confirmed sighting replaces these
   };
   struct Visit {
     std::size_t entry = 0;
     int approach = 1;
-    bool by_person = true;  // false if it is found again by its patch
+    bool by_person = true;  // false: the landmark is found again by its patch
     bool closing = false;
   };
 

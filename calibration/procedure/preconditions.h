@@ -9,11 +9,11 @@
 
 namespace ols::calibration {
 
-// The largest error of a clock by which the sky and drones are sighted: a second is 15 arc seconds
-// of a star, and a drone at 10 m/s flies 10 m.
+// The largest allowed clock error when the sky or drones are sighted: in a second, a star moves by
+// 15 arc seconds, and a drone at 10 m/s by 10 m.
 inline constexpr double kClockOfSky_s = 0.05;
 
-// What the check needs to know from a station's status.
+// The facts from a station's status that the check needs.
 struct StationFacts {
   bool camera_works = false, unit_works = false;
   bool moves = true;          // false for a fixed mount
@@ -21,7 +21,7 @@ struct StationFacts {
   bool stopped = false, emergency = false;
   bool held_by_hand = false;  // an operator controls the unit manually
   bool follows_target = false;
-  double status_gap_s = 0.0;  // interval between two statuses
+  double status_gap_s = 0.0;  // time between two statuses
   bool has_position = false, has_tilt = false;
   double position_sd_m = 0.0, tilt_sd_deg = 0.0, heading_sd_deg = 0.0;  // 1-sigma
   bool clock_synchronised = false;
@@ -31,17 +31,18 @@ struct StationFacts {
 };
 
 struct Wanted {
-  // Largest interval between statuses that still lets a stop be noticed in time.
+  // Largest time between two statuses. With a longer one, the procedure would notice a stop of the
+  // station too late.
   double status_gap_s = 0.0;
-  bool absolute_time = false;                   // needed for stars, the sun, aircraft and drones
-  bool sun_kept_out = false;                    // the sun is up, and must stay out of the picture
+  bool absolute_time = false;  // the clock must be right: for stars, the sun, aircraft and drones
+  bool sun_kept_out = false;   // the sun is up and must stay out of the picture
   int image_width_px = 0, image_height_px = 0;  // as configured
 };
 
 struct Precondition {
   bool met = false;
   bool needed = true;    // false if it is only a warning
-  std::string sentence;  // for a person: the state, and what to do about it
+  std::string sentence;  // for a person: the present state, and what to do about it
 };
 
 // The conditions, in the order in which a person should meet them.

@@ -1,7 +1,7 @@
-// The stage in which one rectification target is measured together with a person. A live picture
-// shows the measured value until the target is in place and the person confirms. Then pictures are
-// taken with both directions of approach; each is read separately. If the target's place depends on
-// where the unit points, the unit stays still throughout. Pure.
+// The stage in which one rectification target is measured with the help of a person. While the
+// person sets up the target, a live picture shows the measured value. When the person confirms,
+// pictures are taken with both directions of approach, and each is read separately. If the target's
+// position depends on where the unit points, the unit does not move during the stage. Pure.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace ols::calibration {
 
 class RectificationStage : public Stage {
  public:
-  // `start`: the direction in which the unit looks first. `rounds`: number of pictures for each
+  // `start`: the angles to which the unit turns first. `rounds`: number of pictures for each
   // direction of approach.
   RectificationStage(TargetReaderPtr reader, const PanTilt& start, int rounds);
 
@@ -41,7 +41,7 @@ class RectificationStage : public Stage {
   State state_ = State::kPuttingUp;
   std::optional<Taken> picture_;  // the newest picture, while the person sets up the target
   std::optional<Eigen::Vector2d> pointed_;
-  std::optional<TargetReading> reading_;  // of that picture
+  std::optional<TargetReading> reading_;  // of picture_
   std::optional<Order> question_;
   int taken_ = 0, read_ = 0;
   std::string number_;  // the measured value, from the last picture that could be read

@@ -1,5 +1,6 @@
-// Finds the place that a person should sight next: predicts for each place the systematic error
-// over the working volume, given all observations so far. Pure.
+// Finds the place that a person should sight next. For each place, predicts the systematic error
+// over the working volume that would remain after sighting it, in addition to all observations so
+// far. Pure.
 #pragma once
 
 #include <functional>
@@ -23,12 +24,12 @@ struct Foretold {
   std::string name;
   double rms_rad = 0.0;
 };
-// For example "mast would leave 21.3″ (gable 24.0″, barn 25.1″)". Empty if there are no
+// A sentence such as "mast would leave 21.3″ (gable 24.0″, barn 25.1″)". Empty if there are no
 // predictions.
 std::string in_words(const std::vector<Foretold>& ranked);
 
-// The places, sorted by the error that would remain, smallest first. Places without a prediction
-// are left out. `model`: the station as far as it is known.
+// Returns the predictions for places, sorted by the error that would remain, smallest first. Places
+// without a prediction are left out. `model`: the station as far as it is known.
 using Adviser =
     std::function<std::vector<Foretold>(const StationModel& model, const std::vector<Place>&)>;
 
@@ -36,8 +37,8 @@ class SightingPlanner {
  public:
   using Observed = std::function<std::vector<Observation>()>;
   // `problem`: the station's prior, the air and the references; its observations are ignored.
-  // `observed`: the observations so far. `times`: number of sightings of a place, with alternating
-  // directions of approach.
+  // `observed`: returns the observations so far. `times`: how often each place would be sighted,
+  // with alternating directions of approach.
   SightingPlanner(Problem problem, Observed observed, int times)
       : problem_(std::move(problem)), observed_(std::move(observed)), times_(times) {}
 
@@ -49,7 +50,7 @@ class SightingPlanner {
   Problem problem_;
   Observed observed_;
   int times_;
-  std::size_t unnamed_ = 0;           // number of unnamed stars in the last call
+  std::size_t unnamed_ = 0;           // number of unnamed stars at the last call
   std::vector<Observation> named_{};  // the same stars, with their names
 };
 

@@ -1,6 +1,6 @@
-// A guided procedure as a sequence of orders: point somewhere and take a picture, ask a person, or
-// wait a moment for data. The caller carries out each order and reports the result. The clock,
-// devices and files belong to the caller.
+// A stage of a guided procedure: a sequence of orders. An order is to point in a direction and take
+// a picture, to ask a person, or to wait a moment for data. The caller carries out each order and
+// reports the result. Only the caller uses the clock, devices and files.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +19,10 @@ struct Shot {
   PanTilt angles;  // as the unit reports them
   // The required sign of the last motion in counts; the unit makes a detour if needed.
   int approach_pan = 1, approach_tilt = 1;
-  bool may_detour = true;  // if false, the unit goes straight there
+  bool may_detour = true;  // if false, the unit turns directly to the angles
   bool lossless = true;
-  // Whether the picture shows permanent scenery. If so, later pictures are compared with it to see
-  // whether the tripod has moved.
+  // Whether the picture shows permanent scenery. If so, later pictures are compared with this one,
+  // to detect that the tripod has moved.
   bool is_view = false;
 };
 
@@ -54,8 +54,8 @@ struct Taken {
 
 struct Answer {
   std::string choice;                    // one of the question's choices
-  std::optional<Eigen::Vector2d> pixel;  // for "point"
-  PanTilt turn;                          // for "turn" [rad]
+  std::optional<Eigen::Vector2d> pixel;  // where the person pointed, for the choice "point"
+  PanTilt turn;                          // how far to turn the unit [rad], for the choice "turn"
   std::int64_t utime_us = 0;             // when it was given
 };
 
@@ -68,20 +68,20 @@ class Stage {
   virtual void taken(const Taken& picture) = 0;
   // Takes a new picture for a live question. It may change the question.
   virtual void seen(const Taken&) {}
-  // Does a part of the computation while the unit moves. Returns whether there is more to do; while
-  // there is, the stage is not complete.
+  // Does a part of the computation while the unit moves. Returns whether computation remains; until
+  // it is done, the stage is not complete.
   virtual bool work() { return false; }
   // Reports that the picture could not be taken.
   virtual void not_taken(const std::string& why) = 0;
   virtual void answered(const Answer& answer) = 0;
-  // Reports that the procedure was interrupted and continues now. What a person has done to the
-  // unit (such as putting a filter on) may have been undone.
+  // Reports that the procedure was interrupted and now continues. In the meantime, a person's
+  // changes at the unit (such as putting a filter on) may have been undone.
   virtual void resumed() {}
-  // The stage's observations so far. A later call may return different observations (after a
-  // sighting was redone).
+  // The stage's observations so far. If a sighting is redone, the new observation replaces the old
+  // one.
   virtual std::vector<Observation> observations() const = 0;
   virtual double progress() const = 0;  // 0..1
-  // Returns the new sentences for a person, once.
+  // Returns the sentences for a person that are new since the last call.
   std::vector<std::string> take_remarks() { return std::exchange(remarks_, {}); }
 
  protected:
@@ -91,7 +91,7 @@ class Stage {
   std::vector<std::string> remarks_;
 };
 
-// Fills in those parts of an observation that the picture alone determines.
+// Makes an observation: reading, pose and time are those of the picture.
 Observation observation_of(Kind kind, const Taken& picture, const Eigen::Vector2d& pixel,
                            double sd_px, std::string reference);
 

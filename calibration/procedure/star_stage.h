@@ -1,5 +1,5 @@
-// Takes pictures of the night sky all around, and finds the stars in them. The stars have no names
-// yet; the adjustment identifies them. Pure.
+// The stage that takes pictures of the night sky all around, and finds the stars in them. The
+// observed stars have no names yet: they are identified before the adjustment (name_stars.h). Pure.
 #pragma once
 
 #include <numbers>
@@ -11,14 +11,15 @@ namespace ols::calibration {
 struct StarPlanOptions {
   int pictures = 24;
   double pan_min_rad = -2.6, pan_max_rad = 2.6;
-  double lowest_rad = 0.21;  // 12 degrees; below 10, refraction is not known well enough
+  double lowest_rad = 0.21;  // 12 degrees; below 10 degrees, the refraction is too uncertain
   double highest_rad = 0.5;
-  // One turn of the worm, for pan and for tilt.
+  // The shaft angle of one turn of the worm, for pan and for tilt.
   double worm_turn_rad = 2.0 * std::numbers::pi / 70.0;
 };
 
-// Plans pictures all around, alternately low and high, with all directions of approach, and at all
-// phases of the worms. Throws std::invalid_argument if the unit cannot reach the lowest elevation.
+// Plans pictures all around, alternately low and high, with all directions of approach, and at
+// evenly distributed phases of the worms. Throws std::invalid_argument if the unit cannot reach the
+// lowest elevation.
 std::vector<Shot> plan_stars(const StarPlanOptions& options);
 
 class StarStage : public Stage {
@@ -37,7 +38,7 @@ class StarStage : public Stage {
 
   std::vector<Shot> shots_;
   std::size_t at_ = 0;
-  int empty_ = 0;  // pictures without a star
+  int empty_ = 0;  // number of pictures without a star
   std::vector<Observation> observations_;
 };
 

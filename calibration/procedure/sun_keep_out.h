@@ -1,7 +1,7 @@
 // The region around the sun into which the unit must not point without a filter on the lens. Pure.
 //
-// The region depends on the heading. Its margin covers a compass error of some degrees, but not an
-// unknown heading.
+// The region is computed from the station's heading. Its margin covers a compass error of some
+// degrees. It does not protect the camera if the heading is unknown.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ class SunKeepOut {
   using UtcNow = std::function<std::int64_t()>;  // [us]
   SunKeepOut(const StationModel& model, UtcNow now) : model_(model), now_(std::move(now)) {}
 
-  // Why the unit must not look in this direction now (angles as reported), in words; empty if it
-  // may. `doubt_rad`: how far the tripod may have turned; added to the compass error.
+  // Why the unit must not look in this direction now (angles as the unit reports them), in words;
+  // empty if it may. `doubt_rad`: how far the tripod may have turned since; it enlarges the region.
   std::string hindrance(const PanTilt& angles, double doubt_rad = 0.0) const;
-  // Whether part of the sun may be visible; true even if the sun is a little below the horizon.
+  // Whether a part of the sun may be visible. True even if the sun is a little below the horizon.
   bool is_up() const;
-  // Suspends the region: a person has said that a filter is on the lens, and a picture beside the
-  // sun has confirmed it.
+  // Suspends the region. To be called only when a person has stated that a filter is on the lens,
+  // and a picture beside the sun has confirmed it.
   void lift() { lifted_ = true; }
   void restore() { lifted_ = false; }
 

@@ -1,6 +1,7 @@
-// The stage in which the sun is sighted through a filter. A person puts the filter on, and a
-// picture beside the sun confirms it. Only then does the unit look at the sun, with both directions
-// of approach, and with the sun at several places in the picture. Pure.
+// The stage in which the sun is sighted through a filter. A person puts the filter on the lens. A
+// picture beside the sun must then be black: this confirms the filter. Only then does the unit look
+// at the sun, with both directions of approach, and with the sun at several places in the picture.
+// Pure.
 #pragma once
 
 #include <memory>
@@ -23,7 +24,7 @@ class SunStage : public Stage {
   void taken(const Taken& picture) override;
   void not_taken(const std::string& why) override;
   void answered(const Answer& answer) override;
-  // The filter may have been taken off meanwhile.
+  // Asks for the filter again: it may have been taken off in the meantime.
   void resumed() override;
   std::vector<Observation> observations() const override { return observations_; }
   double progress() const override;

@@ -1,5 +1,5 @@
-// Reads pictures of the paper's rectification targets while a person sets them up. Returns a
-// picture for the person, the measured value, and observations. Pure.
+// Reads the paper's rectification targets in pictures, while a person sets them up and when they
+// are measured. Returns a picture for the person, the measured value, and observations. Pure.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,14 @@ namespace ols::calibration {
 struct LevelBoard {
   double level_sd_rad = 30.0 * EIGEN_PI / 648000.0;
 };
-// One cross straight ahead of the unit's axes, and a second one to the right of it, as far as the
-// camera is to the right of the axes. If the camera is directly above the axes, there is only one
-// cross.
+// Two crosses: the left one is straight ahead of the unit's axes; the right one is as far to the
+// right of it as the camera is to the right of the axes. If the camera is directly above the axes,
+// there is only one cross.
 struct CrossBoard {
   double distance_m = 0.0;  // from the pan axis
   double apart_m = 0.0;
   double arm_m = 0.12, width_m = 0.03;  // length of an arm from the cross's centre; width of an arm
-  double sd_m = 0.003;  // 1-sigma of the left cross's place relative to where the unit points
+  double sd_m = 0.003;  // 1-sigma of the left cross's position relative to the unit's direction
 };
 // Two rulers at two distances, side by side in the picture, with their zeros at the same height.
 struct RulerPair {
@@ -39,7 +39,7 @@ struct RectificationTargets {
 
 struct TargetReading {
   std::string trouble;  // why the target cannot be read, as a sentence; empty if it was read
-  std::string number;   // the measured value in words
+  std::string number;   // the measured value, as text
   cv::Mat shown;
   std::optional<Eigen::Vector2d> crosshair_px;
   double crosshair_sd_px = 0.0;
@@ -51,10 +51,10 @@ class TargetReader {
   virtual ~TargetReader() = default;
   virtual std::string name() const = 0;         // for example "level line"
   virtual std::string instruction() const = 0;  // what a person has to set up, and where
-  // Whether the target's place depends on where the unit points. If so, the unit must not turn
+  // Whether the target's position depends on where the unit points. If so, the unit must not turn
   // before all pictures are taken.
   virtual bool holds_unit() const { return false; }
-  // `pointed`: where the target, or a part of it, is according to a person.
+  // `pointed`: the pixel of the target, or of a part of it, at which a person has pointed.
   virtual TargetReading read(const Taken& picture,
                              const std::optional<Eigen::Vector2d>& pointed) const = 0;
 };

@@ -1,11 +1,12 @@
-// The view that a station has of a point in ECEF: in GROUND, lifted by terrestrial refraction.
+// Computes where a station sees a point given in ECEF: in the station's GROUND, lifted by
+// terrestrial refraction.
 #pragma once
 
 #include "calibration/target.h"
 
 namespace ols::calibration {
 
-// The view of the point, without a nuisance.
+// The view of the point. by_nuisance stays empty.
 TargetView place_seen(const State& state, const Sighting& sighting, const Eigen::Vector3d& ecef);
 
 Eigen::Matrix3d R_enu_ecef(const State& state, const Sighting& sighting);
