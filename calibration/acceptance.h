@@ -17,10 +17,9 @@ struct AcceptanceLimits {
   double rms_arcsec = 15.0, worst_arcsec = 25.0;
   double detectable_arcsec = 30.0;  // detectable bias of each reference
   double without_itself_sigma = 3.0;
-  double without_itself_arcsec =
-      // Largest offset of a checked reference from the position that the other references predict.
-      20.0;
-  double closing_arcsec = 12.0;
+  // Largest offset of a checked reference from the position that the other references predict.
+  double without_itself_arcsec = 20.0;
+  double closing_arcsec = 12.0;            // between first and last sighting of a reference
   double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
   // Smallest number of 60 deg sectors of azimuth that contain a reference.
   int sectors = 3;
@@ -29,7 +28,7 @@ struct AcceptanceLimits {
 
 struct Finding {
   enum class Judgement { kGood, kUnchecked, kBad };
-  std::string name;  // "systematic_rms", "reference spire detectable", ...
+  std::string name;  // "systematic_rms", "detectable spire", ...
   Judgement judgement = Judgement::kGood;
   double value = 0.0;  // infinite if unchecked
   double limit = 0.0;

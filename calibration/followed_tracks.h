@@ -30,7 +30,7 @@ using Instant = FollowedSighting;
 
 struct Instants {
   std::vector<Instant> instants;  // sorted by station and time
-  std::size_t lonely = 0;  // sightings without another one on the other side of a whole second
+  std::size_t lonely = 0;  // sightings without a partner: none within 0.25 s across a whole second
   std::size_t unsure = 0;  // pairs of sightings whose directions of approach are unknown or differ
 };
 

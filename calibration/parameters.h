@@ -20,7 +20,7 @@ using InstrumentMatrix = Eigen::Matrix<double, kInstrumentParameters, kInstrumen
 
 struct ParameterText {
   const char* key;       // its name in files, with the unit, for example "mount_z_deg"
-  bool is_angle;         // if true, it is in degrees in files, in radians here
+  bool is_angle;         // an angle: degrees in files, radians in the program
   double new_unit_sd;    // 1-sigma for a unit that was never calibrated; for kFocal: of fx
   const char* sentence;  // the parameter's meaning
 };

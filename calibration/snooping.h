@@ -19,8 +19,8 @@ double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t 
 // by the equations `then`, over the same columns. Negative if the misfit increases.
 double replacement_statistic(const Fit& fit, const BlockEquations& now, const BlockEquations& then);
 
-// The smallest bias of the group's direction (across, up) that its test detects; `noncentrality`:
-// the one that the test needs for the wanted power (least_noncentrality()).
+// The smallest bias of the group's direction (across, up) that its test detects. `noncentrality`:
+// that at which the test has the wanted power (least_noncentrality()).
 Eigen::Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
                                double noncentrality);
 

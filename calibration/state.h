@@ -17,7 +17,7 @@ struct StationPrior {
   StationModel model;
   double refraction = 0.13;
   double air = 1.0;
-  // The covariance of the parameters, in their units of geometry/station_model.h; 0 for a parameter
+  // The covariance of the parameters, in the units of geometry/station_model.h; 0 for a parameter
   // that is known exactly. The covariance of the heading is ignored: the heading counts as unknown.
   StationMatrix covariance = StationMatrix::Zero();
   double pose_sd_rad = 0.0;  // 1-sigma of each angle of a pose; independent at every pose

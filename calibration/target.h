@@ -1,5 +1,6 @@
 // A target: the object that a pixel shows. Computes where a station should see the target, and how
-// this depends on the unknowns of an adjustment.
+// this depends on the unknowns of an adjustment. The unknowns of the target itself are its nuisance
+// parameters ("the nuisance").
 #pragma once
 
 #include <Eigen/Core>

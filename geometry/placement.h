@@ -22,8 +22,8 @@ namespace ols {
 
 // kMean: the cost is the root mean square; kWorst: the maximum. If stations may stand anywhere
 // around the area, kWorst gives the paper's regular polygon on the edge. kMean gives this polygon
-// only for four or more stations. It puts three stations on one side of the area, and the other
-// side is measured worse.
+// only for four or more stations. With three stations, kMean puts all of them on one side of the
+// area; the other side is then measured worse.
 enum class PlacementGoal { kMean, kWorst };
 
 struct PlacementProblem {
@@ -44,7 +44,7 @@ struct Placement {
   // a station are not counted.
   std::size_t undetermined = 0;
   double mean_m = 0.0;   // root mean square of the 3-D error over the other points
-  double worst_m = 0.0;  // largest 3-D error (1-sigma) of these points
+  double worst_m = 0.0;  // largest RMS 3-D error of one of these points
 
   bool determines_all() const { return undetermined == 0; }
 };

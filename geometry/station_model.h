@@ -22,11 +22,12 @@
 namespace ols {
 
 struct AxisModel {
-  std::int64_t counts_per_turn = 112000;  // 0.9 deg / 70 / 4: a D46 in quarter steps
+  // FLIR D46: motor steps of 0.9 deg, worm gear 1:70, quarter steps.
+  std::int64_t counts_per_turn = 112000;
   int worm_teeth = 70;
   double cos1_rad = 0.0, sin1_rad = 0.0, cos2_rad = 0.0, sin2_rad = 0.0;
   double worm_cos_rad = 0.0, worm_sin_rad = 0.0;
-  double backlash_rad = 0.0;  // shaft angle between the two directions of approach
+  double backlash_rad = 0.0;  // difference of the shaft angle between the two approaches
 };
 
 // The unit's reading of one axis, at the time stamp of a frame.

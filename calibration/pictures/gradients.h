@@ -6,8 +6,8 @@
 namespace ols::calibration {
 
 // The 1-sigma [gray] of the noise from pixel to pixel, after J. Immerkaer, Fast Noise Variance
-// Estimation, Computer Vision and Image Understanding 64 (1996), with the median instead of the
-// mean, which edges hardly change. In a fine texture, the result is too large.
+// Estimation, Computer Vision and Image Understanding 64 (1996), but with the median instead of the
+// mean, because edges hardly change the median. In a fine texture, the result is too large.
 double noise_of(const cv::Mat& gray);
 
 struct Gradients {

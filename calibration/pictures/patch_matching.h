@@ -18,8 +18,8 @@ struct Patch {
 
 // Cuts the patch around a point; nullopt if the patch is not entirely inside the picture. The patch
 // is resampled to the orientation of the picture that will be searched: `turn` maps offsets in that
-// picture to offsets in `gray`. It differs from the identity if one picture shows the scenery
-// turned or sheared relative to the other.
+// picture to offsets in `gray`. Use the identity unless one picture shows the scenery turned or
+// sheared relative to the other.
 std::optional<Patch> cut_patch(const cv::Mat& gray, const Eigen::Vector2d& centre_px, int half_px,
                                const Eigen::Matrix2d& turn = Eigen::Matrix2d::Identity());
 

@@ -1,5 +1,5 @@
-// Computes from pictures of still scenery how far a mount has turned between them, whatever the
-// mount reports. Pure.
+// Computes from pictures of still scenery how far a mount has turned between the pictures. The
+// angles that the mount reports may be wrong. Pure.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -48,7 +48,7 @@ class SceneTracks {
   // The sightings of points seen in at least two pictures, sorted by picture.
   std::vector<SceneSighting> sightings() const;
   const std::vector<ScenePair>& pairs() const { return pairs_; }
-  // The number of pairs in which more points moved than stayed: the scene is not still there.
+  // The number of pairs in which more points moved than stayed. In these, the scene is not still.
   int moving_pairs() const;
 
  private:

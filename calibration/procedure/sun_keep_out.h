@@ -21,7 +21,8 @@ class SunKeepOut {
   SunKeepOut(const StationModel& model, UtcNow now) : model_(model), now_(std::move(now)) {}
 
   // Why the unit must not look in this direction now (angles as the unit reports them), in words;
-  // empty if it may. `doubt_rad`: how far the tripod may have turned since; it enlarges the region.
+  // empty if it may. `doubt_rad`: how far the tripod may have turned since the heading was
+  // determined; it enlarges the region.
   std::string hindrance(const PanTilt& angles, double doubt_rad = 0.0) const;
   // Whether a part of the sun may be visible. True even if the sun is a little below the horizon.
   bool is_up() const;

@@ -24,7 +24,8 @@ struct SweepPlanOptions {
   std::function<bool(const PanTilt&)> allowed;
 };
 
-// Throws std::invalid_argument for fewer than eight poses, or for a range too small for any pose.
+// Throws std::invalid_argument if there are fewer than eight poses, or if `allowed` leaves fewer
+// than eight.
 std::vector<Shot> plan_sweep(const SweepPlanOptions& options);
 
 }  // namespace ols::calibration

@@ -16,13 +16,13 @@ namespace ols::calibration {
 struct LevelBoard {
   double level_sd_rad = 30.0 * EIGEN_PI / 648000.0;
 };
-// Two crosses: the left one is straight ahead of the unit's axes; the right one is as far to the
-// right of it as the camera is to the right of the axes. If the camera is directly above the axes,
-// there is only one cross.
+// Two crosses. The left cross is straight ahead of the unit's axes. The distance from the left
+// cross to the right one equals the distance of the camera to the right of the axes. If the camera
+// is directly above the axes, there is only one cross.
 struct CrossBoard {
   double distance_m = 0.0;  // from the pan axis
   double apart_m = 0.0;
-  double arm_m = 0.12, width_m = 0.03;  // length of an arm from the cross's centre; width of an arm
+  double arm_m = 0.12, width_m = 0.03;  // length of an arm from the centre, and its width
   double sd_m = 0.003;  // 1-sigma of the left cross's position relative to the unit's direction
 };
 // Two rulers at two distances, side by side in the picture, with their zeros at the same height.

@@ -1,5 +1,5 @@
-// Computes where a station sees a point given in ECEF: in the station's GROUND, lifted by
-// terrestrial refraction.
+// Computes where a station sees a point that is given in ECEF. The result is in the station's
+// GROUND, and includes terrestrial refraction.
 #pragma once
 
 #include "calibration/target.h"
