@@ -3,8 +3,10 @@
 //
 //   seen = zero + gain * reported + backlash * approach / 2 + gain * delay * rate
 //
-// approach: 1 or -1, the sign of the last motion. A report that is late by `delay` states an
-// earlier position of the mount. In motion, the picture is therefore ahead of the report.
+// seen: the angle of an axis according to the picture. reported, rate: the angle and the rate that
+// the mount reports. approach: 1 or -1, the sign of the last motion. A report that is late by
+// `delay` states an earlier position of the mount. In motion, the picture is therefore ahead of the
+// report.
 #pragma once
 
 #include <optional>

@@ -19,10 +19,10 @@ struct NamedStars {
   std::vector<std::size_t> false_ones;  // indices of observations that match no star of the table
 };
 
-// Names the star of each star observation that has no reference, and adds the named stars ("HIP n")
-// to the problem's references, from the table. Observations with the same station, reading and time
-// are one frame. False detections get no name; the caller must leave them out. Throws
-// StarsUnidentified.
+// Gives a reference to each star observation that has none: the name of its star, "HIP n". Adds
+// these stars to the problem's references, from the table. Observations with the same station,
+// reading and time are one frame. False detections get no name; the caller must leave them out.
+// Throws StarsUnidentified.
 NamedStars name_stars(Problem& problem);
 
 }  // namespace ols::calibration
