@@ -1,6 +1,7 @@
-// Decides which targets lead stations. A target that an operator has designated in a picture always
-// leads. A target that only detectors have found is proposed, allowed or dismissed; the site's
-// policy and the operator decide. Pure.
+// Decides which targets lead stations: stations that do not see such a target are slewed to it. A
+// target that an operator has designated in a picture always leads stations. A target that only
+// detectors have found is proposed, allowed or dismissed; the site's policy and the operator
+// decide. Pure.
 //
 //  - The policy for targets found by detectors is one of three. off: they lead no station. propose:
 //    each waits for an operator. automatic: those of the configured `classes` lead at once, and the

@@ -37,7 +37,7 @@ struct CueRay {
 // The range at which the target is expected on the line.
 struct LinePrior {
   double range_m = 300.0;  // most likely range, from the line's origin
-  double sd_m = 150.0;     // of a logistic distribution
+  double sd_m = 150.0;     // 1-sigma; the distribution is logistic
 };
 
 // The range at which a drone or a bird of usual size has this apparent size. nullopt if the
@@ -50,7 +50,7 @@ LinePrior combined(const LinePrior& first, const LinePrior& second);
 
 // The part of the line in which one searching station begins.
 struct LineShare {
-  int rank = 0;  // 0 to of - 1, from the near end to the far end
+  int rank = 0;  // from 0 (at the near end) to `of` - 1 (at the far end)
   int of = 1;    // number of searching stations
 };
 

@@ -57,9 +57,9 @@ void guess_clocks(std::vector<BearingMeasurement>& measurements);
 // Takes one object's bearings in any order. For each epoch with a position, passes a target to
 // `take`, in order of time. The caller must leave out bearings that check() refuses. Throws
 // std::invalid_argument for a rate that is not finite or gives more than ten million epochs, for an
-// unknown estimator, and for smoothing with an estimator other than the filter. Memory: the other
-// estimators copy the bearings; the filter needs a constant amount besides the bearings, and
-// smoothing little more.
+// unknown estimator, and for smoothing with an estimator other than the filter. Memory: besides the
+// bearings, the filter needs a constant amount, and smoothing little more. The other estimators
+// copy the bearings.
 OfflineReport fuse_offline(const BearingPointers& measurements, const OfflineConfig& config,
                            const std::function<void(FusedTarget)>& take);
 

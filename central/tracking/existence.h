@@ -1,5 +1,5 @@
-// The probability that a target made of tracklets exists. If the target is a ghost, images that
-// should show it often do not. Pure.
+// The probability that a target made of tracklets exists. A ghost is missing from many images that
+// should show it. Pure.
 #pragma once
 
 #include <Eigen/Core>

@@ -12,8 +12,8 @@
 //    it has used, and it has used two bearings of each of three stations, or five of each of two
 //    stations over confirm_s.
 //  - A track made of tracklets is not confirmed while it may be a ghost. Images from detectors show
-//    whether it exists (existence.h). If only two stations see it, it also may be a ghost if their
-//    tracklets can be paired in several ways, or may agree by chance (clutter.h). A tracklet
+//    whether it exists (existence.h). If only two stations see it, there are two more reasons:
+//    their tracklets can be paired in several ways, or may agree by chance (clutter.h). A tracklet
 //    belongs to one target only.
 //  - tentative -> deleted: no two stations have seen the track for tentative_delete_s, or it is a
 //    duplicate of a confirmed track.
@@ -54,7 +54,8 @@ class LiveTracks : public TrackManager {
                  std::int64_t utime_us) {
     views_.know(station, axis, view_rad, utime_us);
   }
-  // The obstacles that a station has seen, which hide targets in addition to the model of the land.
+  // Takes a part of the skyline that a station has seen. Its obstacles hide targets, in addition to
+  // the model of the land.
   void know_skyline(const SkylineSector& sector) { skylines_.take(sector); }
   void forget_skyline(const std::string& station) { skylines_.forget(station); }
   const SeenSkylines& skylines() const { return skylines_; }

@@ -23,7 +23,7 @@ struct RayMeeting {
   double range_m = 0.0;
   std::string first, second;  // the stations whose rays intersect
   double miss = 0.0;          // distance between the rays, relative to the largest allowed
-  int support = 0;            // number of other stations with a bearing in that direction
+  int support = 0;            // number of other stations with a bearing towards the point
 };
 
 class RayMeetings {

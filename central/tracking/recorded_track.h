@@ -1,11 +1,11 @@
 // The track of a recording that contains only one object. Every bearing is offered to this track.
 // Pure.
 //
-//  - Two rays begin the track, on trial. It is confirmed once it has a position. The trial ends
-//    when the bearings also satisfy the rules of track initiation (track_initiation.h). If a
-//    bearing is rejected during the trial, the track is deleted, and everything learnt from it is
-//    forgotten. For a second after that, two rays do not begin a track: the rules of track
-//    initiation apply.
+//  - Two rays begin the track; it is then on trial. The track is confirmed once it has a position.
+//    The trial ends when the bearings also satisfy the rules of track initiation
+//    (track_initiation.h). If a bearing is rejected during the trial, the track is deleted, and
+//    everything learnt from it is forgotten. For a second after that, two rays do not begin a
+//    track: the rules of track initiation apply.
 //  - A station disagrees with the track if most of its recent bearings are rejected. If at least
 //    two stations, and at least half of all stations, disagree, an initiation on which more
 //    stations agree replaces the track. The track keeps its identity.
@@ -55,7 +55,7 @@ class RecordedTrack : public TrackManager {
 
   std::map<std::string, Explains> explains_;
   bool proved_ = false;
-  BiasModel errors_before_;                    // the station errors before the track on trial
+  BiasModel errors_before_;                    // the station errors before the trial
   std::optional<std::int64_t> taken_back_us_;  // when a trial last failed
 };
 

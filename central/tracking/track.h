@@ -35,7 +35,7 @@ struct Track {
   Existence existence;
   ClassPosterior classes;
   std::map<std::int64_t, Eigen::Vector3d>
-      velocities;  // [m/s] ECEF, at the looks of the last second
+      velocities;  // [m/s] ECEF, by the time of each look_at_class() of the last second
 
   // Whether the track already has a bearing from the same exposure of the same station.
   bool has_taken(const BearingMeasurement& measurement,

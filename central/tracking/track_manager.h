@@ -1,6 +1,6 @@
-// The life cycle of tracks (docs/fusion.md, "The life of a track"). Two classes derive from it:
-// live tracks (live_tracks.h) and the only track of a recording (recorded_track.h). They define the
-// criteria for confirmation and loss. Pure.
+// The life cycle of tracks (docs/fusion.md, "The life of a track"). Two classes derive from
+// TrackManager: LiveTracks (live_tracks.h), and RecordedTrack for the only track of a recording
+// (recorded_track.h). They define the criteria for confirmation and loss. Pure.
 //
 //  - tentative -> confirmed: the track meets the criteria, and is no duplicate of a confirmed
 //    track.
