@@ -44,8 +44,7 @@ std::variant<SkylineSector, MessageRefusal> skyline_sector_from(const std::strin
 // The boot id of the fusion that sent the status.
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
 
-// An operator's decision on a cue or a target, or the mode of the hand-over of targets that
-// detectors find.
+// An operator's decision on a cue or a target, or a new mode of the hand-over.
 struct CueOrder {
   std::string cue;
   bool allow = false;

@@ -43,9 +43,9 @@ struct PaperPoint {
 
 // The mid-plane intersection of two views. M1 and M2 are the camera centres, m is the axis of the
 // baseline, and alpha is the angle about m between the planes of the two direction vectors. The
-// vectors are turned about m into one plane, by beta1 = alpha b2 / (b1 + b2) and beta2 = alpha -
-// beta1: the vector with the higher belief turns less. The position W is the intersection of the
-// turned vectors.
+// vectors are turned about m towards each other, into one plane: the first by beta1 = alpha b2 /
+// (b1 + b2), the second by beta2 = alpha - beta1. The vector with the higher belief turns less. The
+// position W is the intersection of the turned vectors.
 PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
                           const PaperConfig& config = {});
 

@@ -45,7 +45,7 @@ class InteractingModels {
 
   // Predicts each model separately. utime_us must not be before the state's own instant.
   void predict(std::int64_t utime_us);
-  // Mixes the models after dt_s.
+  // Mixes the models, dt_s after the last mixing.
   void interact(double dt_s);
   // Updates the models' probabilities after a measurement, from the log-likelihood of each model.
   void weigh(std::span<const double> log_likelihood);

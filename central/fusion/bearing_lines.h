@@ -24,9 +24,9 @@ class BearingLines {
 
   // Stations that have recently sent an unassociated bearing and are not quarantined.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
-  // For each local track of the station that belongs to no target: its newest bearing. Sorted by
-  // track id, because most trackers assign ids in ascending order: the oldest tracks come first.
-  // Without tracklets, only the first four are returned.
+  // The newest bearing of each local track of the station, except of tracks that belong to a
+  // target. The bearings are sorted by track id: most trackers assign ids in ascending order, and
+  // the oldest tracks then come first. Without tracklets, only the first four are returned.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
   // The newest bearing of one of the stations that stations() returns.

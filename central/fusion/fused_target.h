@@ -17,7 +17,7 @@
 
 namespace ols::fusion {
 
-// The line of sight of the only station that sees a target.
+// The line of sight of the only station that sees an object.
 struct BearingOnly {
   std::string station;
   std::int64_t track_id = 0;  // the station's own id

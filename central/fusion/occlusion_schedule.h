@@ -1,4 +1,4 @@
-// Tells a station when and where the land that hides its target will reveal it again. Pure.
+// Notifies stations whose targets the land hides: when and where each target will reappear. Pure.
 #pragma once
 
 #include <cstdint>

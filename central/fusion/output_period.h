@@ -6,8 +6,8 @@
 
 namespace ols::fusion {
 
-// Whether a period of 1 / rate_hz has passed since the last output, less a tenth. Without this
-// tolerance, jitter of frames at the same rate would delay every other output by a frame.
+// Whether at least nine tenths of a period (1 / rate_hz) have passed since the last output. Without
+// this tolerance, jitter of frames at the same rate would delay every other output by a frame.
 inline bool is_due(const std::optional<std::int64_t>& last_us, std::int64_t now_us,
                    double rate_hz) {
   return !last_us || static_cast<double>(now_us - *last_us) >= 0.9e6 / rate_hz;

@@ -93,11 +93,11 @@ class SlewSchedule {
   SlewRound round_;
   // Stations whose trackers are to let their objects go: the track_id that each tracker follows.
   std::map<std::string, std::int64_t> let_go_;
-  // Stations that see one target but are lent to another target or to a line: the target that each
-  // of them sees.
+  // Stations that see one target but are led to another target or along a line: the target that
+  // each of them sees.
   std::map<std::string, std::int64_t> lent_;
   std::optional<std::pair<LineKey, SearchedLine>> line_;  // the line along which stations search
-  // What is known of objects that stations see, with and without a position.
+  // The objects that stations see, with and without a position.
   std::map<TrackletName, Tracklet> tracklets_;
   std::optional<std::int64_t> begun_us_;  // start of the last round
   std::optional<std::string> next_;  // the next station of the round; nullopt if the round is over

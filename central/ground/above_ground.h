@@ -28,7 +28,7 @@ struct HeightAboveGround {
   double sd_m = 0.0;  // 1-sigma, from the errors of position and ground
 };
 
-// For a position with its covariance [m^2, ECEF]. nullopt where the surface is unknown.
+// The height of a position with this covariance [m^2, ECEF]. nullopt where the surface is unknown.
 std::optional<HeightAboveGround> height_above_ground(const land::Surface& surface,
                                                      const Eigen::Vector3d& p_ecef,
                                                      const Eigen::Matrix3d& covariance_ecef);

@@ -1,4 +1,4 @@
-// Computes whether a station can see a position, or whether the land hides it. Pure.
+// The probability that a station can see a position: that the land does not hide it. Pure.
 #pragma once
 
 #include <Eigen/Core>

@@ -12,9 +12,8 @@ struct Activity {
   // The windows. Some of them are defaults of configured values.
   static constexpr double kDeliversS = 0.3;  // the station counts for "now", and as seeing a target
   static constexpr double kContributesS = 0.5;  // it contributes to the published position
-  static constexpr double kFollowsS =
-      1.0;  // it keeps its target, and its states in a filter that is full
-  static constexpr double kSupportsS = 2.0;  // it supports a track
+  static constexpr double kFollowsS = 1.0;      // it keeps its target, and its states in a filter
+  static constexpr double kSupportsS = 2.0;     // it supports a track
   static constexpr double kTeachesS =
       30.0;  // its bearings still constrain the estimated biases of other stations
 
