@@ -49,7 +49,7 @@ struct Slew {
   std::string station;
   std::int64_t utime_us = 0;         // message time at creation
   std::int64_t effect_utime_us = 0;  // the instant for which the direction holds
-  std::int64_t target_id = 0;        // 0 in a search along a ray
+  std::int64_t target_id = 0;        // 0 if the station is led along a ray or to a cue
   AzimuthElevation direction;        // relative to the horizon at the camera centre
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
