@@ -44,7 +44,7 @@ class Block {
   // The number of observations, minus that of nuisance parameters without a prior.
   virtual int degrees_of_freedom() const = 0;
   virtual Eigen::VectorXd initial(const State&) const { return Eigen::VectorXd(0); }
-  // `damping`: that of Levenberg and Marquardt, for the nuisance.
+  // `damping`: the damping of Levenberg and Marquardt, for the nuisance.
   virtual BlockEquations equations(const State& state, std::size_t block, double damping) const = 0;
   // The heading of the block's station at which the block's first sighting points at its target.
   virtual std::optional<double> heading(const State&, std::size_t) const { return std::nullopt; }

@@ -71,6 +71,7 @@ struct SkyDirection {
   Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();  // [1/s] derivative with respect to UT1
   double elevation_rad = 0.0;                        // apparent
 };
+// A celestial body that is sighted once.
 TargetPtr sky_target(const SkyDirection& direction);
 // A celestial body whose computed directions have the same error at all instants. sd_rad: 1-sigma
 // of this error, each axis.
@@ -84,8 +85,8 @@ TargetPtr body_target(std::vector<SkyPosition> positions, double sd_rad);
 TargetPtr scene_target();
 // A target at an unknown position. The nuisance: the position.
 TargetPtr unknown_target();
-// An aircraft that broadcasts its position. The nuisance: the errors of its position along its
-// path, across it, and up; and the latency of the broadcast.
+// An aircraft that broadcasts its position. The nuisance: the constant errors of its positions
+// (along its path, across it, up), and the latency of the broadcast.
 TargetPtr aircraft_target(const Trajectory& trajectory);
 // A drone. The nuisance: the offset of its visible centre from the antenna (east, north, up).
 TargetPtr drone_target(const Trajectory& trajectory);

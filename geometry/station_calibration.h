@@ -35,8 +35,8 @@ std::optional<Eigen::Matrix2d> systematic_covariance(const StationCalibration& c
                                                      const UnitReading& reading,
                                                      const Eigen::Vector2d& pixel);
 
-// Like sight() of geometry/sight.h. The systematic covariance is the sum of J C J', that of the
-// designation, and that of angles_systematic_rad2.
+// Like sight() of geometry/sight.h. The systematic covariance is the sum of three parts: J C J',
+// the part due to the designation, and the part due to angles_systematic_rad2.
 std::optional<LineOfSight> sight(const StationCalibration& calibration,
                                  const CountedSight& measurement);
 

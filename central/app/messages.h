@@ -57,8 +57,8 @@ struct CueOrder {
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes);
 std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes);
 
-// The answer to an order. `reason`: why the order is refused (its words: wire/refusal_words.h);
-// empty if the order is accepted.
+// The answer to an order. `reason`: why the order is refused (the sentences are in
+// wire/refusal_words.h); empty if the order is accepted.
 struct CueReply {
   std::int64_t boot_id = 0, sequence = 0;  // id of the order
   std::string reason{};

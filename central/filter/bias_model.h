@@ -7,9 +7,9 @@
 // weight k^2. The weight is 1 if the geometry determines the bias, and 0 if it does not. (One step
 // of Fisher scoring on the marginal likelihood: Harville, 1977.)
 //
-// An undeclared bias is first assumed to be small. It is also learnt from other stations that
-// declare no bias: all such biases are compared in units of the station's stated noise. Except for
-// the correlation time of the bias, the model contains no absolute scale, and therefore suits a
+// An undeclared bias is first assumed to be small. The biases of other stations that declare none
+// are also evidence for its size; each bias is taken in units of its station's stated noise. Except
+// for the correlation time of the bias, the model contains no absolute scale, and therefore suits a
 // drone as well as a meteor. If a station's clock error is only a guess, its clock offset is learnt
 // in the same way.
 //
@@ -106,8 +106,8 @@ class BiasModel {
   // been learnt about the station.
   BiasPrior prior(const std::string& station, const LineOfSight& sight, double range_m,
                   bool position_states = false) const;
-  // The covariance [rad^2] to add to a ray's stated systematic covariance, for estimators without
-  // bias states: that of the undeclared bias.
+  // The covariance [rad^2] of the undeclared bias. Estimators without bias states add it to a ray's
+  // stated systematic covariance.
   Eigen::Matrix2d undeclared(const std::string& station, const LineOfSight& sight) const;
   // Takes a bias that the filter has estimated. dt_s: time since the station's previous estimate.
   void observe(const std::string& station, const LineOfSight& sight, const BiasEstimate& bias,

@@ -90,7 +90,7 @@ struct SlewRound {
   std::set<std::int64_t> targets{};               // targets to which stations may be led
   Allocation allocation{};                        // which station goes to which target
   std::set<std::string> bearing_only_stations{};  // stations that have a bearing-only track
-  std::set<std::string> busy{};                   // those whose own tracker follows the object
+  std::set<std::string> busy{};                   // those of them whose tracker follows the object
   std::optional<CueRay> ray{};                    // the ray along which stations search
   LinePrior prior{};                              // the range at which the target is expected
   std::map<std::string, LineShare> shares{};  // shares of the stations that search along the ray

@@ -1,6 +1,6 @@
 // Plans slews in rounds. One round passes through all stations. Each bearing triggers only the
-// slews of the next few stations, because the slews of a thousand stations at once would delay the
-// bearing. Pure.
+// slews of the next few stations: the slews of a thousand stations at once would delay the
+// processing of bearings. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Publishes the outputs of an epoch in this order: targets, then bearing-only tracks, then the
-// paper's estimates. Each bearing triggers only a part of them, because many targets at once would
-// delay the bearing. Pure.
+// paper's estimates. Each bearing triggers only a part of them: many targets at once would delay
+// the processing of bearings. Pure.
 #pragma once
 
 #include <cstdint>

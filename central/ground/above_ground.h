@@ -36,8 +36,8 @@ std::optional<HeightAboveGround> height_above_ground(const land::Surface& surfac
 // The probability that a position is not below the ground; 1 where the surface is unknown.
 double probability_above(const std::optional<HeightAboveGround>& height);
 
-// The height above the ground of the middle of an object that stands on it, such as a vehicle or a
-// person. A tracker follows this middle.
+// The usual height of the middle of a vehicle or a person above the ground, and its 1-sigma. A
+// tracker follows the middle of its object.
 inline constexpr double kMiddle_m = 1.0, kMiddleSd_m = 0.7;
 
 // A position and its covariance [m, m^2, ECEF].

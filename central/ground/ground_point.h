@@ -1,8 +1,8 @@
 // The position of an object on the ground, from a single line of sight: where the line meets the
 // ground. Pure.
 //
-// The position is a mixture over ranges along the line. The probability of a range r depends on the
-// height h(r) of the line above the middle of an object that stands there:
+// The position is a mixture over ranges along the line. The probability of a range r depends on
+// h(r): how far the line at this range is above the middle of an object that stands on the ground:
 //
 //   p(r) ~ r / s(r) * exp(-h(r)^2 / 2 s(r)^2) * p(seen | r),   s^2 = s_ground^2 + (r s_elevation)^2
 //

@@ -1,13 +1,13 @@
 // Plans a station's search along another station's line of sight, for a target whose position is
 // unknown. Pure.
 //
-// The target is most likely near the stations. The most likely range is therefore that of the foot,
-// the point of the line nearest to the centre of the stations (SlewSchedule::expect_range()); the
-// target's apparent size or a cue may change it. The searching stations divide the line into parts
-// of equal probability. Each station begins in its own part. It sweeps outwards first, away from
-// the most likely range, then to and fro between the ends of the line. The sweep is slow enough for
-// a tracker to recognise a target that crosses the field of view. The sweep begins when the unit
-// has had time to turn to its start.
+// The target is most likely near the stations. The most likely range is therefore the range of the
+// foot: the point of the line that is nearest to the centre of the stations
+// (SlewSchedule::expect_range()). The target's apparent size or a cue may change the most likely
+// range. The searching stations divide the line into parts of equal probability. Each station
+// begins in its own part. It sweeps outwards first, away from the most likely range, then to and
+// fro between the ends of the line. The sweep is slow enough for a tracker to recognise a target
+// that crosses the field of view. The sweep begins when the unit has had time to turn to its start.
 #pragma once
 
 #include <Eigen/Core>

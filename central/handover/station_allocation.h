@@ -1,8 +1,8 @@
 // Decides to which target each station is led. Pure.
 //
-// Every target gets a good pair: two stations whose lines of sight cross at 20 degrees or more, or
-// at an angle whose sine is at least half of that of the site's best pair for this target. All
-// other stations are free.
+// Every target gets a good pair: two stations whose lines of sight cross at a good angle. 20
+// degrees or more are good. A smaller angle is also good if its sine is at least half the sine of
+// the site's best pair for this target. All other stations are free.
 //
 //  - A station that sees a target can be spared if the other stations that see this target include
 //    a good pair. A station that cannot be spared leaves its target only for another one with 1.5

@@ -27,7 +27,7 @@ bool has_range(const TrackFilter& filter, const KinematicState& state, double sh
 // kOk if a filter's state is good enough to publish its position, otherwise the reason why not.
 Solution judge_position(const TrackFilter& filter, const KinematicState& state);
 
-// The number of stations of which the filter has used a bearing within the last within_s of the
+// The number of stations from which the filter has used a bearing within the last within_s of the
 // filter's time.
 int stations_lately(const TrackFilter& filter, double within_s);
 

@@ -27,7 +27,7 @@ struct BearingSummary {
   // Whether the bearing points at this position, to within spread_rad plus more_rad.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
 };
-// R_ecef_enu: that of the bearing's origin (geometry/wgs84.h).
+// R_ecef_enu: the east-north-up axes at the bearing's origin (geometry/wgs84.h).
 BearingSummary summarise(const BearingMeasurement& measurement, const Eigen::Matrix3d& R_ecef_enu);
 
 class UnassociatedBearings {
