@@ -1,5 +1,5 @@
 // Finds the most helpful next sighting. For each candidate, predicts the systematic error that
-// would remain after it, over the directions in which a station works.
+// would remain after sighting it, over the directions in which a station works.
 #pragma once
 
 #include <optional>
@@ -38,8 +38,8 @@ std::vector<Advice> rank_sightings(const Problem& so_far, std::size_t station,
 VolumePrecision planned_precision(const Problem& plan, std::size_t station,
                                   const StationModel& model, const WorkingVolume& volume = {});
 
-// The counts at which a point or a direction appears at this pixel, if the unit approaches them in
-// these directions. nullopt if there are none.
+// The counts at which a point or a direction appears at this pixel, if the unit arrives there from
+// these directions of approach. nullopt if there are none.
 std::optional<UnitReading> reading_towards(const StationModel& model, const HomogeneousPoint& point,
                                            const Eigen::Vector2d& pixel, int approach_pan = 1,
                                            int approach_tilt = 1);

@@ -29,8 +29,8 @@ struct Sighting {
 
 struct TargetView {
   HomogeneousPoint point;  // in GROUND of the station that sees it
-  // Derivatives with respect to the target's nuisance (of x and w), and to the station's refraction
-  // and air and UT1 (of x).
+  // Derivatives: of x and w with respect to the target's nuisance; of x with respect to the
+  // station's refraction, its air, and UT1.
   Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4> by_nuisance =
       Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4>::Zero(4, 0);
   Eigen::Vector3d by_refraction = Eigen::Vector3d::Zero();

@@ -1,8 +1,8 @@
 // The model of a lens: computes the pixel of a point, and the direction of a pixel.
 //
-// Camera frame: OpenCV's, x right, y down, z forward. Pixel (0, 0) is the centre of the top-left
-// pixel. A lens model maps a direction to a point on a plane, and the camera matrix K maps that
-// point to a pixel. With theta the angle off the optical axis:
+// The camera frame is that of OpenCV: x right, y down, z forward. Pixel (0, 0) is the centre of the
+// top-left pixel. A lens model maps a direction to a point on a plane, and the camera matrix K maps
+// that point to a pixel. With theta the angle off the optical axis:
 //
 //   pinhole      (x/z, y/z), distorted by k1, k2, p1, p2, k3 as in OpenCV's calib3d
 //   fisheye      radius theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8): OpenCV's

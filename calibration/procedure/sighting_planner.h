@@ -1,6 +1,6 @@
 // Finds the place that a person should sight next. For each place, predicts the systematic error
-// over the working volume that would remain after sighting it, in addition to all observations so
-// far. Pure.
+// over the working volume that would remain if this place were sighted in addition to all
+// observations so far. Pure.
 #pragma once
 
 #include <functional>

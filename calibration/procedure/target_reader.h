@@ -16,9 +16,9 @@ namespace ols::calibration {
 struct LevelBoard {
   double level_sd_rad = 30.0 * EIGEN_PI / 648000.0;
 };
-// Two crosses. The left cross is straight ahead of the unit's axes. The distance from the left
-// cross to the right one equals the distance of the camera to the right of the axes. If the camera
-// is directly above the axes, there is only one cross.
+// Two crosses. The left cross is straight ahead of the unit's axes. The right cross is beside it,
+// at the distance by which the camera is to the right of the axes. If the camera is directly above
+// the axes, there is only one cross.
 struct CrossBoard {
   double distance_m = 0.0;  // from the pan axis
   double apart_m = 0.0;

@@ -1,6 +1,6 @@
 // Estimates what kind of object a target is, from its size and its motion over its life. Pure.
 //
-// A look is one set of measurements of the target. It has six features: size, speed, climb,
+// A look is one set of measurements of the target. A look has six features: size, speed, climb,
 // acceleration across the path, height above the ground, and flicker. For each kind of object
 // (class_table.h), the probability density of the features is a mixture of normal distributions.
 // Flicker is the relative variance of the outline's two sides within a second; wings and rotors are

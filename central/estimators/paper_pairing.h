@@ -14,7 +14,7 @@ namespace ols::fusion {
 // A pair of views whose rays intersect.
 struct PaperBase {
   std::size_t first = 0, second = 0;  // indices of the views
-  Eigen::Vector3d point;              // t_i
+  Eigen::Vector3d point;              // the position that this pair gives
   Baseline baseline;
   double share = 0.0;  // weight in the position; all shares sum to 1
 };

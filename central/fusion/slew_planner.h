@@ -7,7 +7,8 @@
 //  - If one station sees an object whose position is unknown, other stations search along that
 //    station's ray (line_search.h).
 //  - An allowed cue from outside (central/cues/) is an additional place for stations that see
-//    nothing. A station that would otherwise join a crowded target goes to the cue instead.
+//    nothing. A station that would be the third one at a target goes to the cue instead, until two
+//    stations are led to the cue.
 //  - A station that is stopped or under operator control gets no slew, because the operator has
 //    precedence over the fusion. The station itself would refuse the slew, too.
 //

@@ -38,9 +38,10 @@ struct TrackManagerConfig {
   double tentative_delete_s = 0.4;
   double coast_s = 0.5;
   double drop_s = Activity::kSupportsS;
-  double remember_s = 5.0;     // how long the identity of a deleted track is kept
-  double ambiguous_nis = 9.0;  // a bearing is ambiguous if its two best assignments differ by less
-  double memory_s = 1.0;       // how long bearings are kept, for estimators that have no state
+  double remember_s = 5.0;  // how long the identity of a deleted track is kept
+  // A bearing is ambiguous if the sums of the NIS of the two best assignments differ by less.
+  double ambiguous_nis = 9.0;
+  double memory_s = 1.0;  // how long bearings are kept, for estimators that have no state
   InitiationConfig initiation{};
   FilterConfig filter{};
   BiasModelConfig errors{};
