@@ -17,8 +17,8 @@ struct AcceptanceLimits {
   double rms_arcsec = 15.0, worst_arcsec = 25.0;
   double detectable_arcsec = 30.0;  // detectable bias of each reference
   double without_itself_sigma = 3.0;
-  // Largest offset of a checked reference from the position that the other references predict.
-  double without_itself_arcsec = 20.0;
+  double without_itself_arcsec =
+      20.0;  // largest offset of a checked reference from the position that the others predict
   double closing_arcsec = 12.0;            // between first and last sighting of a reference
   double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
   // Smallest number of 60 deg sectors of azimuth that contain a reference.
