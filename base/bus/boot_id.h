@@ -1,11 +1,11 @@
-// A number that distinguishes one run of a program from another on the bus.
+// The boot id: a number that distinguishes one run of a program from every other run on the bus.
 #pragma once
 
 #include <cstdint>
 
 namespace ols {
 
-// A new random number at each call; never negative.
+// Returns a new random boot id at each call; never negative.
 std::int64_t draw_boot_id();
 
 }  // namespace ols

@@ -25,17 +25,18 @@ class BusClient {
   BusClient(std::string url, std::shared_ptr<trust::BusTrust> trust, Subscribe subscribe = {},
             Tell tell = {});
 
-  // Tries to connect; waits at most wait_s for the connection.
+  // Tries to connect; waits at most wait_s for the connection. `now_s`: monotonic.
   void connect(double now_s, double wait_s);
-  // Handles the messages that have arrived, and waits at most wait_ms for the first. Then closes
-  // the connection if it no longer receives anything. Without a connection, tries to connect.
+  // With a connection: handles the messages that have arrived, waits at most wait_ms for the first,
+  // and closes the connection if it no longer receives anything. Without a connection: tries to
+  // connect, then waits wait_ms. `now_s`: monotonic.
   void turn(double now_s, int wait_ms);
 
   // The two parts of turn(), for a caller with work between them. Both need a connection.
   void handle(double now_s, int wait_ms);
   void end_if_deaf();
 
-  // Closes a connection that does not work; turn() opens it again.
+  // Closes a connection that does not work, and reports `why`; turn() opens it again.
   void end(const std::string& why);
 
   LcmBus* bus() const { return bus_.get(); }  // null: no network
@@ -57,7 +58,7 @@ class BusClient {
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;
   BusMonitor monitor_;
-  std::string trouble_;  // the last one reported; empty: none since the last connection
+  std::string trouble_;  // the trouble reported last; empty again once connected
 };
 
 }  // namespace ols

@@ -19,7 +19,7 @@ class BusConnector {
   std::unique_ptr<LcmBus> take(double now_s, double wait_s = 0.0);
   static constexpr double kLongest_s = 12.0;
 
-  // The number of the site's settings in this process; 0: it has none.
+  // The number of the site's settings that this process uses; 0: it has none.
   std::int64_t site_settings_number() const;
 
   // Why the last attempt failed; empty after a success or before the first.

@@ -16,14 +16,15 @@
 
 namespace ols {
 
-// LCM_MAX_CHANNEL_NAME_LENGTH.
+// [byte] LCM's own limit, LCM_MAX_CHANNEL_NAME_LENGTH.
 inline constexpr std::size_t kLongestChannel = 63;
-// The largest payload of a UDP datagram over IPv4.
+// [byte] The largest payload of a UDP datagram over IPv4.
 inline constexpr std::size_t kLargestDatagram = 65507;
 
 // Views into the parsed datagram.
 struct BusDatagram {
-  std::uint32_t sequence = 0;  // the sender's count of datagrams, over all channels
+  std::uint32_t sequence = 0;  // the number of the datagram; the sender counts all channels
+                               // together
   std::string_view channel;    // 1 to kLongestChannel printable ASCII characters without a space
   std::span<const std::uint8_t> payload;
 };

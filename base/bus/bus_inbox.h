@@ -1,5 +1,5 @@
-// The bounded queues of received messages. Messages are parsed and filtered by channel; those
-// without a subscription are dropped. One thread puts datagrams in, another takes messages out.
+// The bounded queues of received messages. The inbox parses each datagram, and drops it if nobody
+// has subscribed to its channel. One thread puts datagrams in, another takes messages out.
 #pragma once
 
 #include <array>
@@ -30,10 +30,11 @@ struct BusMessage {
   std::vector<std::uint8_t> payload;
   std::int64_t received_utime_us = 0;   // this host's clock
   std::vector<std::uint8_t> trailer{};  // the signature, as received (base/trust/trailer.h)
-  // Whether a command names this process's boot. If not, only a stop may be obeyed. Always true
-  // where signatures are not required.
+  // For a command: whether it names the boot id of this process. If not, only a stop may be obeyed.
+  // Always true where signatures are not required.
   bool addressed = true;
-  std::int64_t list_number = 0;  // of the trust list by which the message was judged; 0: none
+  std::int64_t list_number = 0;  // number of the trust list by which the message was judged; 0:
+                                 // there was no list
 };
 
 // The limit of one subscription's queue. When it is reached, the oldest messages are dropped.
@@ -47,9 +48,9 @@ struct BusTraffic {
   std::uint64_t received = 0;    // whole messages, of any channel
   std::uint64_t fragments = 0;   // refused, see DatagramFault
   std::uint64_t malformed = 0;   // refused: not LCM, or with an invalid channel name
-  std::uint64_t overflowed = 0;  // displaced by newer ones before they were handled
-  std::uint64_t unsendable = 0;  // own messages that fit into no datagram
-  std::uint64_t dropped = 0;     // by the kernel: this process did not fetch them in time
+  std::uint64_t overflowed = 0;  // dropped from a full queue before they were handled
+  std::uint64_t unsendable = 0;  // own messages too large for a datagram
+  std::uint64_t dropped = 0;     // by the kernel, because this process did not fetch them in time
   // Messages that failed verification, by reason (trust::Distrust). They are refused where
   // signatures are required.
   std::array<std::uint64_t, static_cast<std::size_t>(trust::Distrust::kCount)> distrusted{};
@@ -74,7 +75,8 @@ class BusInbox {
   void put(std::span<const std::uint8_t> datagram, std::int64_t utime_us);
 
   // Passes the oldest queued message to its subscriber, in the caller's thread. Waits at most
-  // timeout_ms for one. Returns whether there was one. All subscriptions share one order.
+  // timeout_ms for one. Returns whether there was one. The order of arrival counts across all
+  // subscriptions.
   bool handle_one(int timeout_ms);
 
   BusTraffic traffic() const;

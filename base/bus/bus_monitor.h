@@ -15,10 +15,10 @@ class BusMonitor {
  public:
   // Call regularly with the counts of the current connection. `now_s`: monotonic.
   void look(const BusTraffic& connection, double now_s);
-  // The connection ended: the next one counts from zero.
+  // Call when the connection has ended, because the next connection counts from zero.
   void connection_ended();
 
-  // Adds the counters, which increase over all connections: bus_fragments_refused,
+  // Adds the counters, each summed over all connections: bus_fragments_refused,
   // bus_datagrams_malformed, bus_messages_overflowed, bus_messages_unsendable,
   // bus_datagrams_dropped. Where signatures are verified, also bus_distrusted_<reason> for the
   // reasons that have occurred.
@@ -26,9 +26,10 @@ class BusMonitor {
   // The alarm if traffic was refused or displaced within the last kAlarm_s; otherwise empty.
   Alarm alarm(double now_s) const;
   static constexpr double kAlarm_s = 10.0;
-  // The same for messages that failed verification, and for trouble with keys or trust list.
+  // The alarm if messages failed verification within the last kAlarm_s, or if something is wrong
+  // with the keys or the trust list; otherwise empty.
   Alarm trust_alarm(double now_s) const;
-  // Those of these two alarms that hold now.
+  // Whichever of these two alarms are active now.
   std::vector<Alarm> alarms(double now_s) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace ols {
 
-// Each name is completed by a station's name.
+// Prefixes. A station's name, appended to a prefix, makes the channel: OLS_PTU_alfa.
 inline constexpr std::string_view kBearingChannel = "OLS_BEARING_";
 inline constexpr std::string_view kSightingChannel = "OLS_SIGHTING_";
 inline constexpr std::string_view kSkylineChannel = "OLS_SKYLINE_";
@@ -37,7 +37,7 @@ inline std::string station_channel(std::string_view channel, std::string_view st
   return std::string(channel).append(station);
 }
 
-// The kind of message that the prefix of stations' channels stands for: PTU for OLS_PTU_.
+// The kind of message that a prefix stands for: "PTU" for "OLS_PTU_".
 inline std::string message_kind(std::string_view channel) {
   constexpr std::string_view kPrefix = "OLS_";
   return std::string(channel.substr(kPrefix.size(), channel.size() - kPrefix.size() - 1));

@@ -12,7 +12,7 @@ namespace ols {
 
 class ChannelPattern {
  public:
-  // Throws std::invalid_argument with the error in the expression.
+  // Throws std::invalid_argument that says what is wrong with the expression.
   explicit ChannelPattern(const std::string& regex);
 
   bool matches(std::string_view channel) const;

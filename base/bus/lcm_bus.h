@@ -1,6 +1,7 @@
 // A connection to the bus: LCM messages over UDP multicast, or within one process. The project
 // parses datagrams itself (bus_datagram.h says why); LCM provides the types, the wire format and
-// the logs. All signing and verifying of a process is done here (base/trust/bus_trust.h).
+// the logs. Unless `trust` is null, the connection signs what the process sends, and verifies what
+// it receives (base/trust/bus_trust.h).
 #pragma once
 
 #include <cstdint>
@@ -33,8 +34,8 @@ class LcmBus {
   explicit LcmBus(const std::string& url, std::shared_ptr<trust::BusTrust> trust = {});
   ~LcmBus();
 
-  // Starts to receive, as the first subscription does. Throws BusError if the self-test message
-  // does not come back within kSelfTest_s.
+  // Starts to receive; the first subscription does so, too. Throws BusError if this connection does
+  // not receive its own self-test message within kSelfTest_s.
   void listen();
   static constexpr double kSelfTest_s = 3.0;
 
@@ -54,7 +55,8 @@ class LcmBus {
   }
 
   // Handles the messages that have arrived; waits at most timeout_ms for the first. Handles a few
-  // hundred at most, so that a flood cannot hold the caller. Returns their number.
+  // hundred at most, so that a flood cannot keep the caller busy. Returns the number of messages
+  // handled.
   int handle(int timeout_ms);
 
   // Stops receiving. Queued messages can still be handled. A later subscription starts again.
@@ -62,7 +64,7 @@ class LcmBus {
 
   // True if nothing has arrived for some seconds, not even this connection's own self-test. An
   // interface that disappears takes the group membership with it, without an error. The connection
-  // then stays deaf. To receive again, make a new connection.
+  // then receives nothing more; only a new connection does.
   bool is_deaf() const { return unanswered_ >= kUnanswered; }
 
   BusTraffic traffic() const;
@@ -77,18 +79,20 @@ class LcmBus {
 
   std::string url_;
   std::shared_ptr<trust::BusTrust> trust_;
-  class InProcess;                           // all connections to the memq:// bus of one name
+  class InProcess;                           // all connections of this process to one bus
+                                             // memq://NAME
   std::unique_ptr<MulticastSocket> socket_;  // null: the bus is within this process
   BusInbox inbox_;
-  std::shared_ptr<InProcess> others_;  // null: this connection alone
+  std::shared_ptr<InProcess> others_;  // null unless the bus is memq://NAME
   std::uint32_t sequence_ = 0;
   std::uint64_t unsendable_ = 0;
   Wakeup end_;
   std::thread receiver_;  // shares only the inbox with other threads
   static constexpr double kCheck_s = 2.0;
-  static constexpr int kUnanswered = 2;  // self-tests in a row
+  static constexpr int kUnanswered = 2;  // deaf after this many self-tests in a row that did not
+                                         // come back
   double checked_s_ = 0.0;
-  std::uint64_t received_ = 0;  // at the last check
+  std::uint64_t received_ = 0;  // messages received until the last check
   bool tested_ = false;         // whether the last check sent a self-test
   int unanswered_ = 0;
 };

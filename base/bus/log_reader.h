@@ -1,5 +1,5 @@
-// Reads the bus's messages from an LCM log, starting at any record. Bytes that are no record are
-// skipped and counted, and the position of the first is kept.
+// Reads the bus's messages from an LCM log, starting at any record. Skips bytes that belong to no
+// record, counts them, and keeps the position of the first.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ namespace ols {
 // Where a message's time comes from.
 enum class LogTimes {
   kTimeline,    // time never goes back; a record more than a day after its predecessor is garbage
-  kAsRecorded,  // the record's time, for a caller that orders messages by their own stamps
+  kAsRecorded,  // the time in the record, for a caller that orders messages by their own time
+                // stamps
 };
 
 class LogReader {
@@ -25,22 +26,22 @@ class LogReader {
   explicit LogReader(const std::string& path, LogTimes times = LogTimes::kTimeline);
 
   // The next message on this project's channels; nullopt at the end of the file. Throws
-  // std::invalid_argument naming file and position if the disk fails. Also throws it at the end of
-  // a file without any such message.
+  // std::invalid_argument naming file and position if the file cannot be read further, or if it
+  // ends without a single such message.
   std::optional<BusMessage> next();
-  // Call if the last message of next() cannot be decoded: counts it in damage().
+  // Call if the last message of next() cannot be decoded; damage() then counts it.
   void reject(const BusMessage& message);
   // The damage so far and its position, in words for a person; empty: no damage.
   std::string damage() const;
 
-  // Where in the file the next record begins, or the garbage before it.
+  // Position in the file [byte] of the next record, or of the garbage before it.
   std::uint64_t offset() const { return offset_ + begin_; }
-  // Where in the file the record of the last message begins.
+  // Position in the file [byte] of the last message's record.
   std::uint64_t message_offset() const { return message_offset_; }
-  // Continues at an earlier offset. `utime_us`: the time of the record before it.
+  // Continues at an earlier offset [byte]. `utime_us`: the time of the record before that offset.
   void seek(std::uint64_t offset, std::int64_t utime_us);
 
-  std::int64_t utime_us() const { return utime_us_; }  // of the last record; 0: none yet
+  std::int64_t utime_us() const { return utime_us_; }  // time of the last record; 0: no record yet
   std::uint64_t size() const { return size_; }
   std::uint64_t garbage_bytes() const { return garbage_.count; }
   bool is_cut_off() const { return is_cut_off_; }  // the last record is incomplete
@@ -67,7 +68,7 @@ class LogReader {
   std::uint64_t offset_ = 0;         // position in the file of the buffer's first byte
   std::int64_t utime_us_ = 0;
   std::uint64_t message_offset_ = 0;
-  std::uint64_t records_ = 0, messages_ = 0;  // records on all channels; messages on this project's
+  std::uint64_t records_ = 0, messages_ = 0;  // records of all channels; those on this project's
                                               // channels
   Damage garbage_, rejected_;
   std::string rejected_channel_;  // channel of the first rejected message

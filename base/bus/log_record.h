@@ -2,8 +2,8 @@
 // the sync word EDA1DA01; event number and time [us UTC], eight bytes each; lengths of channel and
 // data, four bytes each; the channel; the data. Numbers have the most significant byte first.
 //
-// LCM's own reader ends at the first damaged length, and allocates whatever memory a record claims.
-// This reader continues after the damage. Pure.
+// LCM's own reader stops at the first damaged length, and allocates as much memory as a record
+// claims to need. This reader continues after the damage. Pure.
 #pragma once
 
 #include <cstddef>
@@ -19,18 +19,18 @@ struct LogRecord {
   std::int64_t utime_us = 0;
   std::string_view channel;
   std::span<const std::uint8_t> payload;
-  std::size_t bytes = 0;  // of the whole record
+  std::size_t bytes = 0;  // size of the whole record
 };
-// No record begins within this many bytes.
+// The first `bytes` bytes belong to no record.
 struct LogGarbage {
   std::size_t bytes = 0;
 };
-// There are too few bytes to decide. `bytes` is the number needed in all.
+// There are too few bytes to decide. `bytes` is the total number needed.
 struct LogNeedsMore {
   std::size_t bytes = 0;
 };
 
-inline constexpr std::size_t kMostRecordBytes = 4'000'000;  // of a record's data
+inline constexpr std::size_t kMostRecordBytes = 4'000'000;  // the most data that a record may have
 
 std::variant<LogRecord, LogGarbage, LogNeedsMore> parse_log_record(
     std::span<const std::uint8_t> bytes);

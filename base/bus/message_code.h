@@ -1,5 +1,5 @@
-// Converts the small numbers that stand for states in messages: to enumerations with the same
-// values, or to words in the order of the numbers.
+// Messages state a state as a small number. Converts such numbers to enumerations with the same
+// values, or to words from a list in the order of the numbers.
 #pragma once
 
 #include <array>

@@ -5,7 +5,7 @@
 
 namespace ols {
 
-// Sets them; `boot_id` and `sequence` are the sender's.
+// Sets these fields; `boot_id` and `sequence` are the sender's.
 template <class Message>
 void stamp_message(Message& message, std::int64_t utime_us, std::int64_t boot_id,
                    std::int64_t sequence) {

@@ -16,7 +16,7 @@ namespace ols {
 
 class MulticastSocket {
  public:
-  // Throws std::system_error, also if no route leads to the group.
+  // Throws std::system_error, for example if no route leads to the group.
   explicit MulticastSocket(const BusAddress& address);
   ~MulticastSocket();
   MulticastSocket(const MulticastSocket&) = delete;
@@ -24,16 +24,16 @@ class MulticastSocket {
 
   // Joins the group. Throws std::system_error.
   void listen();
-  // Readable when a datagram waits; -1 before listen().
+  // The file descriptor to poll: readable when a datagram waits; -1 before listen().
   int descriptor() const { return receiving_; }
   // The next datagram, in `buffer`; nullopt if none waits.
   std::optional<std::span<const std::uint8_t>> receive(std::span<std::uint8_t> buffer);
 
   // Number of datagrams that the kernel dropped because this process did not fetch earlier ones in
-  // time. Updated when the next datagram is received. Call from any thread.
+  // time. The number is updated whenever a datagram is received. Call from any thread.
   std::uint64_t dropped() const { return dropped_; }
 
-  // Returns why the datagram could not be sent; no error if it was.
+  // Returns the reason if the datagram could not be sent, otherwise no error.
   std::error_code send(std::span<const std::uint8_t> datagram);
 
  private:

@@ -1,4 +1,4 @@
-// Parts that the configurations of several programs share: rows, checks, and reading a file.
+// What the configurations of several programs have in common: rows, checks, and how a file is read.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace ols::config {
 Row bus_url(std::string& field);
 Row status_file(std::string& field);
 
-// Maps the words of a table's rows to their values. Each row has a field `name` and a field for the
-// value.
+// Makes the words and values of a choice from an array of structures. The word is the structure's
+// field `name`; `value` points to the field with the value.
 template <class Row, class T>
 Words<T> words_of(const std::ranges::range auto& rows, T Row::*value) {
   Words<T> words;
@@ -23,12 +23,14 @@ Words<T> words_of(const std::ranges::range auto& rows, T Row::*value) {
   return words;
 }
 
-// Letters, digits, - and _: safe in file names, topics and XML.
+// Accepts 1 to `longest` letters, digits, - and _. Such a word is safe in file names, topics and
+// XML.
 Check word_up_to(std::size_t longest);
-// Checks the order of south, west, north, east. The row itself checks the range of each number.
+// Throws ConfigError unless south is at most north and both are within 90 degrees. West may be
+// greater than east (base/config/area.h).
 void check_area(const std::array<double, 4>& area_deg, const char* key, const ConfigTable& table);
 
-// Refuses two elements of an array of tables with the same name.
+// Throws ConfigError if two elements of an array of tables have the same name.
 void check_distinct(const std::vector<std::string>& names, const char* array,
                     const ConfigTable& root);
 
@@ -46,7 +48,7 @@ Config load(const std::string& path, Section (*section)(Config&)) {
   return read(file, section);
 }
 
-// The same from text. Errors give `name` instead of the path.
+// Parses a text instead of a file. Errors show `name` instead of the path.
 template <class Config>
 Config parse(const std::string& text, const std::string& name, Section (*section)(Config&)) {
   ConfigFile file(text, name);

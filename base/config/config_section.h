@@ -1,6 +1,6 @@
-// A section of a configuration file as one table: each row binds a key to its field, its range, its
-// unit and the sentence that explains it. The reader, docs/configuration.md and the example files
-// are all made from these rows.
+// Describes a section of a configuration file as one table. Each row binds a key to its field, its
+// range, its unit and the sentence that explains it. The rows serve to read the file, and to write
+// docs/configuration.md and the example files.
 //
 //   config::Section servo_section(ServoConfig& c) {
 //     return {"servo", "How the unit follows its goal.",
@@ -50,14 +50,14 @@ enum class Presence {
 
 struct Row {
   std::string key, values, unit;  // values: the range or the choices
-  std::string fallback;           // as written in the file
+  std::string fallback;           // the default, as a file would state it
   std::string sentence;
   std::function<void(ConfigTable&)> read;
   Presence presence = Presence::kOptional;
 
   Row required() && { return with(Presence::kRequired); }
   Row required_with_section() && { return with(Presence::kWithSection); }
-  // Shows these words as the default, for a default that depends on other values.
+  // Use if the default depends on other values: the documentation then shows these words.
   Row default_is(std::string words) && {
     fallback = std::move(words);
     return std::move(*this);
@@ -84,7 +84,7 @@ struct Section {
   // that is read.
   std::vector<Section> forms = {};
   std::function<void(std::size_t)> choose = {};
-  // An older name of the section. It is still read, as the section's first form.
+  // An older name of the section. A section of this name is still read, as the first form.
   std::string former_name = {};
 };
 
@@ -93,16 +93,16 @@ void read(const Section& section, ConfigTable& table);
 // Markdown: a heading and a table for the section and each nested one. `path`: the path of the
 // parent section.
 std::string markdown(const Section& section, const std::string& path = "");
-// An example file: the rows of `values` ("mount.baud" -> "9600"), in the order of the sections,
-// each with its sentence. If `values` use a section's former name, so does the file. Throws
-// std::invalid_argument for a key that has no row.
+// An example file with these keys and values ("mount.baud" -> "9600"), in the order of the
+// sections, each with the sentence of its row. If a key uses a section's former name, so does the
+// file. Throws std::invalid_argument for a key that has no row.
 std::string example(const Section& root,
                     const std::vector<std::pair<std::string, std::string>>& values);
 
 // The section with only the rows of these keys ("ptu.baud"), without the checks across rows. Throws
 // std::invalid_argument for a key that has no row.
 Section picked(const Section& root, const std::vector<std::string>& keys);
-// The keys of the section that are present in the table.
+// The keys of the section that the file states.
 std::vector<std::string> stated(const Section& section, ConfigTable& table);
 
 using Check = std::function<void(const std::string&)>;  // throws std::invalid_argument
@@ -116,8 +116,9 @@ Row texts(std::string key, std::vector<std::string>& field, std::string sentence
 Row choice(std::string key, std::string& field, std::vector<std::string> choices,
            std::string sentence);
 
-// For the templates below: a row that reads one of several words and passes its index to `set`, or
-// a row that reads an integer.
+// For the templates below. word_row() reads one of several words and passes its index to `set`;
+// words_row() does so for a list of words. integer_row() reads an integer. one_of() is a row for an
+// integer that must be one of `choices`.
 Row word_row(std::string key, std::size_t fallback, std::vector<std::string> words,
              std::function<void(std::size_t)> set, std::string sentence);
 Row words_row(std::string key, const std::vector<std::size_t>& fallback,

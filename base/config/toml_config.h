@@ -26,8 +26,8 @@ class ConfigTable {
 
   bool exists() const;  // if false, every key is absent
   bool has(std::string_view key) const;
-  // Throws ConfigError for the first key that is not one of these; the error suggests the most
-  // similar one.
+  // Throws ConfigError for the first key that is not in `known`; the error suggests the most
+  // similar known key.
   void refuse_unknown(const std::vector<std::string>& known) const;
   // Each getter returns `fallback` if the key is absent. It throws ConfigError if the value has
   // another type, is not finite or is outside least..greatest.
@@ -44,9 +44,9 @@ class ConfigTable {
                               double least, double greatest);
   std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& fallback);
 
-  // A sub-table; an empty one if it is absent.
+  // The table of this key; an empty one if the key is absent.
   ConfigTable& table(std::string_view key);
-  // An array of tables; an empty one if it is absent.
+  // The array of tables of this key; an empty one if the key is absent.
   std::vector<ConfigTable*> tables(std::string_view key);
 
   // An error about this table's key, for the caller's own checks.
@@ -62,7 +62,7 @@ class ConfigTable {
 class ConfigFile {
  public:
   explicit ConfigFile(const std::string& path);
-  // The same from text. Errors give `name` instead of the path.
+  // Parses a text instead of a file. Errors show `name` instead of the path.
   ConfigFile(std::string_view text, const std::string& name);
   ConfigTable& root() { return *root_; }
 

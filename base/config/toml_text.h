@@ -1,4 +1,4 @@
-// A text in TOML's notation.
+// Writes a string in TOML's notation.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Appends a line to a file so that it survives a loss of power.
+// Appends a line to a file so that the line survives a loss of power.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,8 @@
 
 namespace ols {
 
-// Appends the line with a line end, and returns when it is on disk. Creates the file if needed.
-// Throws std::system_error naming the path; a part of the line may then be in the file, without its
-// end.
+// Appends the line and a line end, and returns when both are on disk. Creates the file if needed.
+// Throws std::system_error naming the path; the file may then hold the beginning of the line.
 void append_line(const std::filesystem::path& path, std::string_view line);
 
 }  // namespace ols

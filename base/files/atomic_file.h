@@ -10,7 +10,7 @@ namespace ols {
 
 class AtomicFile {
  public:
-  // Throws std::system_error naming the path if it cannot be opened or is not a plain file.
+  // Throws std::system_error naming the path if the file cannot be opened or is not a plain file.
   explicit AtomicFile(const std::string& path);
   ~AtomicFile();  // without commit(), the file at `path` stays unchanged
   AtomicFile(const AtomicFile&) = delete;
@@ -39,8 +39,9 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-// From now on SIGINT, SIGTERM and SIGHUP remove the temporary files before they end the program.
-// For programs without an orderly shutdown (base/process/shutdown.h). Call once, first in main.
+// Installs handlers for SIGINT, SIGTERM and SIGHUP that remove the temporary files before the
+// program ends. For programs without an orderly shutdown (base/process/shutdown.h). Call once,
+// first in main.
 void remove_temporary_files_on_signals();
 
 }  // namespace ols

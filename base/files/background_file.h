@@ -10,19 +10,19 @@ namespace ols {
 class BackgroundFile {
  public:
   explicit BackgroundFile(const std::string& path);  // empty path: nothing is written
-  // Waits briefly for a pending write, but not for a disk that hangs.
+  // Waits for a pending write, but only briefly, because a disk may hang.
   ~BackgroundFile();
   BackgroundFile(const BackgroundFile&) = delete;
   BackgroundFile& operator=(const BackgroundFile&) = delete;
 
-  // Replaces the content of the file soon; a write that is still pending is dropped. Retries a
-  // failed write every few seconds. Never creates the folder: it may be the mount point of a
-  // missing disk.
+  // Replaces the content of the file soon, and drops an earlier write that is still pending.
+  // Retries a failed write every few seconds. Never creates the folder: it may be the mount point
+  // of a missing disk.
   void write(const std::string& text);
 
-  // Whether the file holds the text; waits at most wait_s for the answer.
+  // Whether the file holds the text of the last write(); waits at most wait_s until it does.
   bool is_written(double wait_s) const;
-  // Why the file does not hold the text; empty if it does.
+  // Why the file does not hold this text; empty if it does.
   std::string trouble() const;
 
  private:

@@ -1,6 +1,6 @@
-// The input files of the offline programs: stations.csv, bearings.csv; a surveyor's landmarks and
-// their sightings; a flight for the simulator. Angles are in degrees, as in the files. The output
-// is written by tools/offline/fix_writer.h.
+// The input files of the offline programs: stations.csv and bearings.csv, the paper's landmarks,
+// surveyed landmarks and their sightings, and a flight for the simulator. Angles are in degrees, as
+// in the files. The output is written by tools/offline/fix_writer.h.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
 // plain decimal, finite and in range. Ids must be free of commas, quotes and control characters.
@@ -38,16 +38,16 @@ struct BearingRow {
   double azimuth_deg = 0.0;  // clockwise from true north, -360..360 is accepted
   double elevation_deg = 0.0;
   double sigma_deg = 0.0;  // 1-sigma of each axis, white
-  double belief = 1.0;     // 1 without such a column
-  std::string target;      // empty without such a column; an empty cell is "1"
+  double belief = 1.0;     // 1 if the file has no such column
+  std::string target;      // empty if the file has no such column; "1" if the cell is empty
 };
 
-// A landmark in front of a base, as in the paper's Table 1.
+// A landmark in front of the baseline between two cameras, as in the paper's Table 1.
 struct LandmarkRow {
   std::string object;
   double distance_m = 0.0;
-  double alpha_rad = 0.0;  // angle from the base's normal
-  int side = 0;            // -1, 0 or 1, geometry/precision_paper.h; 0 by default
+  double alpha_rad = 0.0;  // angle between the landmark's direction and the baseline's normal
+  int side = 0;            // -1, 0 or 1 (geometry/precision_paper.h); 0 by default
   std::optional<double> estimated_m;
   std::optional<double> measured_m;
 };
@@ -72,7 +72,7 @@ struct SurveyRow {
   unsigned line = 0;      // of the file
 };
 
-// A landmark in a station's image.
+// A sighting of a landmark in a station's image.
 struct SightedRow {
   std::string landmark;
   double pan_deg = 0.0, tilt_deg = 0.0;  // as the PTU reports them
@@ -91,8 +91,8 @@ struct FlightRow {
 
 // At least one row. Station ids are unique.
 std::vector<StationRow> read_stations(const std::string& path);
-// At least one row. Each row's station is one of `stations`. Passes the rows on one by one, in the
-// order of the file: a file of a million rows need not fit into memory.
+// Passes each row to `take`, in the order of the file, so that a file of a million rows need not
+// fit into memory. There is at least one row, and each row's station is one of `stations`.
 void for_each_bearing(const std::string& path, const std::vector<StationRow>& stations,
                       const std::function<void(const BearingRow&)>& take);
 std::vector<BearingRow> read_bearings(const std::string& path,

@@ -18,7 +18,7 @@
 
 #include "base/files/csv_files.h"
 
-// The library needs no second thread for reading: the files have few rows.
+// Tells the library to read without a second thread.
 #define CSV_IO_NO_THREAD
 #include <libfccp/csv.h>
 
@@ -31,8 +31,8 @@ struct Header {
   std::size_t required;
 };
 
-// One row: its place in the file, for errors, and its cells by column. A cell is null if the file
-// has no such column.
+// One row: its cells by column, and the path and line for error messages. A cell is null if the
+// file has no such column.
 template <std::size_t kColumns>
 class Row {
  public:
@@ -53,7 +53,7 @@ class Row {
     if (!has(column)) fail(column, "is empty");
     return cells_[column];
   }
-  // Ids are copied to other files unchanged.
+  // An id has no comma, quote or control character, because it is copied to other files unchanged.
   std::string id(std::size_t column) const {
     const std::string cell = text(column);
     const bool plain = std::ranges::none_of(
@@ -91,7 +91,8 @@ template <std::size_t kColumns>
 using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                              io::throw_on_overflow, io::empty_line_comment>;
 
-// The column separator that a spreadsheet has written instead of the comma.
+// The separator that a spreadsheet has written instead of the comma: "semicolons" or "tabs"; empty:
+// neither.
 inline std::string other_separator(const std::string& path) {
   std::string header;
   std::getline(std::ifstream(path, std::ios::binary), header);
@@ -119,9 +120,10 @@ void read_header(Reader<kColumns>& reader, const std::string& path,
   }
 }
 
-// A file whose last line always has a line end. Without it the library would read past the end of
-// the file. A loss of power can leave blocks of zero bytes. They are an error here, because the
-// library takes a zero byte for a row's end and silently skips empty rows.
+// The bytes of a file, with a line end added if the last line has none: without a line end the
+// library would read past the end of the file. Zero bytes, which a loss of power can leave in
+// blocks, are an error. The library would take each for the end of a row, and silently skip the
+// empty rows.
 class EndedLines : public io::ByteSourceBase {
  public:
   explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
@@ -135,8 +137,8 @@ class EndedLines : public io::ByteSourceBase {
     auto count = static_cast<int>(file_.gcount());
     check_text({buffer, static_cast<std::size_t>(count)});
     if (count > 0) last_ = buffer[count - 1];
-    // The line end is added together with the file's last bytes, not later: if the file fits into
-    // the buffer, the library reads nothing more.
+    // The line end is added together with the file's last bytes, not later, because the library
+    // reads only once if the file fits into the buffer.
     if (count < size && last_ != '\n') buffer[count++] = last_ = '\n';
     return count;
   }
@@ -177,9 +179,9 @@ void for_each_row(const std::string& path, const Header<kColumns>& header, Take 
   }
 }
 
-// Reads a place: latitude and longitude from the two columns at `geodetic`, or zone, easting and
-// northing from the three at `utm`. A zone is written as "33N": its number and the hemisphere, not
-// the letter of a latitude band.
+// Reads a place: latitude and longitude from two columns, of which `geodetic` is the first; or
+// zone, easting and northing from three columns, of which `utm` is the first. A zone is written as
+// "33N": its number and the hemisphere, not the letter of a latitude band.
 template <std::size_t kColumns>
 std::variant<GeodeticCells, UtmCells> place_of(const Row<kColumns>& row, std::size_t geodetic,
                                                std::size_t utm) {

@@ -7,7 +7,7 @@
 
 namespace ols {
 
-// `before`: the hash of the preceding text, if this one continues it.
+// `before`: the hash of the text that this text continues, if any.
 constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t before = 0xcbf29ce484222325U) {
   for (const char byte : text)
     before = (before ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;

@@ -15,24 +15,24 @@ enum class RestoreResult {
   kNoFile,      // no file is configured: nothing is persisted
   kMissing,     // the file or its folder does not exist
   kUnreadable,  // the file cannot be read, or holds no permitted word
-  kUnwritable,  // the file holds the first word, but the disk cannot be written, so it may be
-                // outdated
+  kUnwritable,  // the file holds the first word but cannot be written, so the word may be outdated
 };
 
 class PersistedWord {
  public:
-  // `words`: the permitted words, most permissive first. The first word is trusted only after it
-  // has been written again: on a disk that cannot be written, a later and stricter word may have
-  // been lost. Empty `file`: nothing is persisted. Waits for the disk at most kProof_s.
+  // `words`: the permitted words, the most permissive first. If the file holds that first word, it
+  // is trusted only after it has been written again: on a disk that cannot be written, a later and
+  // stricter word may have been lost. Waits for this at most kProof_s. Empty `file`: nothing is
+  // persisted.
   PersistedWord(const std::string& file, std::vector<std::string> words);
 
   RestoreResult restore_result() const { return restore_result_; }
   // Why the word is unknown: "FILE is missing"; empty if it is known.
   const std::string& why_unknown() const { return why_; }
-  // The word last set or restored; empty if there is none.
+  // The word that was set last, or else restored from the file; empty if there is none.
   const std::string& word() const { return word_; }
-  // `word`: one of `words`. Does not wait for the disk. If the file is removed or changed, it is
-  // written again.
+  // `word`: one of `words`. Does not wait for the disk. If somebody removes or changes the file, it
+  // is written again.
   void set(const std::string& word);
 
   // Why the file cannot be written now; empty if it can.

@@ -1,4 +1,4 @@
-// Reads a small file without blocking, even if another program has replaced it by a pipe.
+// Reads a small file. Never blocks, even if another program has replaced the file by a pipe.
 #pragma once
 
 #include <cstddef>

@@ -16,8 +16,8 @@ class AlarmChanges {
     Alarm alarm;
     bool begins = false;
   };
-  // Takes the current alarms. "silent for 5 s" and "silent for 6 s" are the same alarm, because
-  // their keys are equal.
+  // Takes the current alarms; returns what has changed since the last call. Alarms with equal keys
+  // are the same alarm: "silent for 5 s" and "silent for 6 s".
   std::vector<Change> look(const std::vector<Alarm>& alarms);
 
  private:

@@ -1,4 +1,4 @@
-// An event for the journal: its text, its kind, and the parts that it is about. Pure.
+// An event for the journal: its text, its kind, and the station and device that it is about. Pure.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct JournalEvent {
   std::string station{};  // the id of the station that the event is about
   std::string device{};   // the device, the part of a program or the connection that it is about
   std::string reason{};   // why it happened; a part of the text
-  std::string alarm{};    // its id in conditions.toml
+  std::string alarm{};    // the alarm's id in conditions.toml; empty: not an alarm
   std::string action{};   // what a person should do about it
 };
 
@@ -26,8 +26,8 @@ std::vector<std::string> journal_fields(const JournalEvent& event);
 // A lost connection to the bus.
 JournalEvent bus_lost_event(const std::string& why);
 JournalEvent bus_connected_event(const std::string& url);
-// An alarm of a program. It concerns the station that its parameters name, or else a part of the
-// program. begins: false if the alarm ends.
+// An alarm of a program. The event is about the station that the alarm's parameters name; if they
+// name none, about a part of the program. begins: false if the alarm ends.
 JournalEvent alarm_event(const Alarm& alarm, bool begins);
 // An alarm of a station about one of its parts.
 JournalEvent station_alarm_event(const Alarm& alarm, bool begins);

@@ -1,5 +1,5 @@
-// Limits a program's journal entries: the beginning and end of each condition, without flooding.
-// Pure.
+// Limits how often a program writes the beginning and the end of a condition into the journal, so
+// that a condition that comes and goes does not flood it. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,16 @@
 namespace ols {
 
 struct News {
-  std::string key;  // entries with the same key are counted together
+  std::string key;  // the limit is for all entries with the same key
   JournalEvent event;
 };
 
 class JournalRateLimit {
  public:
-  // The entries to write now: the first kBurst of a key within kWindow_s. Of the rest, only the
-  // last is written, after the window, with the number of skipped entries. So the end of a
-  // condition is always written. Call also when there is nothing new. `now_s`: monotonic.
+  // Returns the entries to write now. Of each key, the first kBurst entries within kWindow_s are
+  // written at once. Of the later ones only the last is written, when the window ends, with the
+  // number of those skipped. The end of a condition is therefore always written. Call also when
+  // there is nothing new. `now_s`: monotonic.
   std::vector<JournalEvent> pass(const std::vector<News>& news, double now_s);
 
   static constexpr int kBurst = 4;

@@ -1,5 +1,5 @@
-// Logs when each trouble of a program's inputs or outputs begins and ends. A trouble that comes and
-// goes is logged as one. Pure except for the journal.
+// Logs when a trouble of a program's input or output begins and ends. A trouble that comes and goes
+// is logged as one trouble. Pure except for the journal.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@ class TroubleLog {
  private:
   struct Known {
     std::string logged, seen;
-    double since_s = 0.0;  // since when `seen` holds
+    double since_s = 0.0;  // since when `seen` is the trouble
   };
   const std::string kind_;
   std::map<std::string, Known> known_;

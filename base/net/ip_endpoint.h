@@ -7,7 +7,7 @@
 namespace ols {
 
 // "10.0.0.11:7790" or "[fd00::11]:7790". Throws std::invalid_argument for anything else, and for a
-// wildcard address: nobody can connect to it.
+// wildcard address, because nobody can connect to one.
 boost::asio::ip::tcp::endpoint parse_endpoint(const std::string& text);
 
 }  // namespace ols

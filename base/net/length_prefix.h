@@ -1,5 +1,5 @@
-// Messages in a stream of bytes. The length of each comes before it, in four bytes, most
-// significant first. Pure.
+// Messages in a stream of bytes. Before each message, four bytes state its length, most significant
+// byte first. Pure.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ inline constexpr std::size_t kLengthPrefix_bytes = 4;
 using LengthPrefix = std::array<std::uint8_t, kLengthPrefix_bytes>;
 
 LengthPrefix length_prefix(std::uint32_t length);
-// nullopt if the message is empty or longer than `max_bytes`: the peer does not use this protocol,
-// and the start of the next message is unknown.
+// The length that the prefix states. nullopt if it is 0 or more than `max_bytes`: then the peer
+// does not use this protocol, and nobody knows where the next message starts.
 std::optional<std::uint32_t> message_length(const LengthPrefix& prefix, std::uint32_t max_bytes);
 
 }  // namespace ols

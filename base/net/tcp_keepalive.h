@@ -1,13 +1,14 @@
-// Keepalive of a connection. A peer that has lost its power sends nothing any more; the kernel
-// probes it, and closes the connection if it does not answer.
+// Keepalive of a TCP connection. A peer that has lost power falls silent without closing the
+// connection. With keepalive, the kernel probes a silent peer, and closes the connection if the
+// peer does not answer.
 #pragma once
 
 namespace ols {
 
 struct TcpKeepalive {
   int idle_s = 0;      // silence before the first probe
-  int interval_s = 0;  // between two probes
-  int probes = 0;      // the connection is closed after this many unanswered probes
+  int interval_s = 0;  // time between two probes
+  int probes = 0;      // after this many unanswered probes, the connection is closed
 };
 
 void keep_alive(int socket, const TcpKeepalive& keepalive);

@@ -1,4 +1,5 @@
-// The two clocks of a process. Only main programs and device code read them.
+// The two clocks of a process. Only main programs and device code read them; everything else is
+// given the time.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@ namespace ols {
 inline std::int64_t clock_monotonic_ns() { return time_source().monotonic_ns(); }
 inline double clock_monotonic_s() { return 1e-9 * static_cast<double>(clock_monotonic_ns()); }
 
-// UTC since 1970.
+// UTC [ns] since 1970.
 inline std::int64_t clock_utc_ns() { return time_source().utc_ns(); }
 inline std::int64_t clock_utime_us() { return clock_utc_ns() / 1000; }
 

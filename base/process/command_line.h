@@ -1,5 +1,5 @@
-// The common start and end of every program: parses the command line (bad input: one line and
-// status 2), and checks that the output was written.
+// The common start and end of every program. Parses the command line; bad input gives one line on
+// standard error and exit status 2. At the end, checks that the output was written.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,8 +16,8 @@ namespace ols {
 
 inline constexpr int kExitBadInput = 2;
 
-// Throws std::system_error if any output of std::cout or stdout was not written, for example on a
-// full disk.
+// Throws std::system_error if output to std::cout or stdout could not be written, for example
+// because the disk is full.
 inline void flush_output() {
   errno = 0;
   std::cout.flush();
@@ -41,7 +41,8 @@ inline void check_numbers(CLI::App& app) {
   }
 }
 
-// The exit status: 0 after --help, 2 after bad input. nullopt: the program should continue.
+// Returns the status with which the program should exit: 0 after --help, 2 after bad input;
+// nullopt: the program should continue.
 inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv,
                                              const char* program) {
   check_numbers(app);
@@ -63,8 +64,8 @@ inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** arg
   return std::nullopt;
 }
 
-// Parses the command line, calls `act`, and returns its exit status. Any exception is printed in
-// one line, and the status is then 2. The same if the output cannot be written.
+// Parses the command line, calls `act`, and returns its exit status. If anything throws an
+// exception, or the output cannot be written, prints one line and returns 2.
 template <class Act>
 int run_command(CLI::App& app, int argc, char** argv, const char* program, Act act) {
   if (const auto status = parse_command_line(app, argc, argv, program)) return *status;

@@ -8,9 +8,10 @@
 
 namespace ols {
 
-// The program's standard output, if it ends with status 0 within deadline_s and writes at most
-// `most_bytes`. Otherwise nullopt, and the program is killed. Searches the program in PATH. Returns
-// only after the program has ended. The program inherits no other file of this process.
+// Returns the program's standard output if the program ends with status 0 within deadline_s and
+// writes at most `most_bytes`. Otherwise kills the program and returns nullopt. Searches PATH for
+// the program. Returns only after the program has ended. The program inherits no open file of this
+// process.
 std::optional<std::string> command_output(const std::vector<std::string>& command,
                                           double deadline_s, std::size_t most_bytes = 65536);
 

@@ -1,4 +1,4 @@
-// Progress of long work: a line on standard error every few seconds.
+// Reports the progress of long work: a line on standard error every few seconds.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace ols {
 
-// Receives the number of steps done and their total; 0: the total is unknown.
+// Receives the number of steps done and the total number; `all` is 0 if the total is unknown.
 using TellSteps = std::function<void(std::size_t done, std::size_t all)>;
 
 // Can be used as a TellSteps.
@@ -20,7 +20,7 @@ class Progress {
   Progress(std::string program, std::string steps, std::ostream& out,
            std::function<double()> now_s);
 
-  // Call often.
+  // Call often; prints only every few seconds.
   void operator()(std::size_t done, std::size_t all);
 
  private:

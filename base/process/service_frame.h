@@ -1,5 +1,5 @@
-// The frame of a program that runs until it is asked to end: its common options, its exit status,
-// and its loop with the service manager's watchdog.
+// The frame of a program that runs until it is asked to end: common options, exit status, and a
+// loop that serves the service manager's watchdog.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -28,16 +28,17 @@ Config configuration_of(const ServiceOptions& options, Config (*load)(const std:
   return config;
 }
 
-// Whether std::invalid_argument means bad input of the caller or a failure of the program.
+// What std::invalid_argument means in a program: bad input, or a failure of the program.
 enum class InvalidArgument { kBadInput, kFailure };
 
-// Runs `act`, and logs under the program's name. Returns act's exit status; 1 after a failure; 2
-// after bad input, which is logged in one line (a restart would not help).
+// Runs `act`, and logs under the program's name. Returns the exit status of `act`; 1 after a
+// failure; 2 after bad input, which is logged in one line. The service manager does not restart a
+// program after bad input, because that would not help.
 int run_service(const std::string& program, InvalidArgument invalid,
                 const std::function<int()>& act);
 
-// Runs the action; its failure to read or write a file counts as bad input, because a restart does
-// not help against it.
+// Runs the action. If the action cannot read or write a file, this counts as bad input, because a
+// restart would not help.
 template <class Action>
 auto as_bad_input(Action action) {
   try {
@@ -47,8 +48,8 @@ auto as_bad_input(Action action) {
   }
 }
 
-// Calls `turn` until the process is asked to end, and `status` every status_s. The service manager
-// shows the line that `status` returns. Times are monotonic.
+// Calls `turn` again and again until the process is asked to end, and `status` every status_s. The
+// service manager shows the line that `status` returns. Times are monotonic.
 void serve(ServiceNotifier& service_manager, double status_s,
            const std::function<void(double now_s)>& turn,
            const std::function<std::string()>& status);

@@ -1,5 +1,5 @@
-// Notifies the service manager (systemd): ready, status line, watchdog of the control loop. Without
-// a service manager, every call does nothing.
+// Tells the service manager (systemd) that the process is ready, what its status line is, and that
+// its control loop is alive. Without a service manager, every call does nothing.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ class ServiceNotifier {
   void ready(const std::string& status);
   // Replaces the status line, for example by the active alarms.
   void status(const std::string& text);
-  // Call at each turn of the control loop, and nowhere else: a loop that hangs must starve the
-  // watchdog. Sends at most four times per watchdog interval. `now_s`: CLOCK_MONOTONIC.
+  // Call at each turn of the control loop, and nowhere else: if the loop hangs, the watchdog must
+  // receive nothing more. Sends at most four times per watchdog interval. `now_s`: CLOCK_MONOTONIC.
   void alive(double now_s);
   void stopping();
 

@@ -1,4 +1,4 @@
-// A program's status file, for people and other programs. It is rewritten as a whole.
+// A program's status file, for people and other programs. Each write replaces the whole file.
 #pragma once
 
 #include <string>

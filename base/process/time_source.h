@@ -1,4 +1,5 @@
-// The source of a process's clocks: its host, or simulated time (sim/processes/simulated_time.h).
+// Where a process's clocks get their time: from the host, or simulated
+// (sim/processes/simulated_time.h).
 #pragma once
 
 #include <atomic>
@@ -16,13 +17,13 @@ class TimeSource {
   virtual std::int64_t monotonic_ns() const = 0;
   // UTC since 1970.
   virtual std::int64_t utc_ns() const = 0;
-  // Waits until `over` returns true, but at most most_s. `lock` guards the data that `over` reads,
-  // and is released while waiting; `news` signals that they have changed.
+  // Waits until `over` returns true, but at most most_s. `lock` guards the data that `over` reads;
+  // it is released while waiting. `news` is signalled when the data have changed.
   virtual void wait(std::unique_lock<std::mutex>& lock, std::condition_variable& news,
                     double most_s, const std::function<bool()>& over) = 0;
-  // Where a loop asks whether background work is finished, it waits this long for it, in true time.
-  // Zero on a host. In simulated time it is long, so that the result does not depend on the speed
-  // of the machine.
+  // How long a loop that asks for the result of background work waits for that work, in true time.
+  // Zero on a host. Long in simulated time, so that the results do not depend on the speed of the
+  // computer.
   virtual std::chrono::seconds for_work() const = 0;
 
  protected:

@@ -1,4 +1,4 @@
-// Ends another thread's poll(). Stays set until clear().
+// Wakes another thread from poll(): the descriptor stays readable from set() until clear().
 #pragma once
 
 namespace ols {

@@ -1,6 +1,6 @@
 // Signs the messages that a process sends and verifies those that it receives. Holds the process's
-// key, the site's trust list and settings, and the marks against replays. A thread of its own reads
-// and writes the files, so that no control loop waits for a disk.
+// key, the site's trust list and settings, and the marks against replays (replay_marks.h). Its own
+// thread reads and writes the files, so that no control loop waits for a disk.
 #pragma once
 
 #include <condition_variable>
@@ -26,15 +26,16 @@ namespace ols::trust {
 
 // The process as a member of the site.
 struct Self {
-  std::string name{};  // its key file has this name, unless the configuration names another file
-  std::int64_t boot_id = 0;  // in the messages that it sends
-  bool is_station = false;   // commands to `name` must name the boot `boot_id`
-  bool commands = false;     // shows and commands stations, so it accepts the statuses of stations
-                             // with a wrong clock, too
+  std::string name{};  // also the name of its key file, unless the configuration names another file
+  std::int64_t boot_id = 0;  // stated in the messages that it sends
+  bool is_station = false;   // commands to this station must name `boot_id`
+  bool commands = false;     // shows and commands stations; therefore it accepts the statuses of
+                             // stations with a wrong clock, too
   bool tells_list = false;   // publishes the trust list
   bool keeps_marks = false;  // its marks against replays survive a restart
-  SettingsCheck settings{};  // checks the site's settings; none: the process only passes them on
-  // Receives each list that is adopted, from any thread.
+  SettingsCheck settings{};  // checks the site's settings; empty: the process does not use the
+                             // settings, it only passes them on
+  // Called with each trust list that is adopted, from any thread.
   std::function<void(const TrustList&)> list_taken{};
 };
 
@@ -42,10 +43,12 @@ struct Self {
 struct Judgement {
   Bytes payload;  // without the trailer
   bool passes = true;
-  bool addressed = true;               // whether a command names this boot, where that is required
-  std::optional<Distrust> distrust{};  // why verification failed; counted in mode observe too
+  bool addressed = true;               // for a command: whether it names this boot, where that is
+                                       // required
+  std::optional<Distrust> distrust{};  // why verification failed; also set and counted in mode
+                                       // observe, where the message passes
   std::string sender{};                // the member that signed it, if the key is known
-  std::int64_t list_number = 0;        // of the trust list by which it was judged
+  std::int64_t list_number = 0;        // number of the trust list by which it was judged
 };
 
 Environment process_environment();
@@ -67,15 +70,17 @@ class BusTrust {
   // if that is known.
   std::vector<std::uint8_t> sign(const std::string& channel, Bytes payload);
   // Whether BusTrust itself needs the messages of this channel, even if the process has not
-  // subscribed to it. These are the trust list, the site's settings and, unless the process is a
-  // station, the stations' statuses and replies, which tell the stations' boot ids.
+  // subscribed to it. Every process needs the trust list and the site's settings. A process that is
+  // not a station also needs the stations' statuses and replies, because they state the stations'
+  // boot ids.
   bool wants(std::string_view channel) const;
   // Verifies a received message. Called from the receiving thread.
   Judgement judge(std::string_view channel, Bytes message, std::int64_t utime_us, double now_s);
 
-  // The list or the settings, when they are due for publication; otherwise nullopt. The centre
-  // publishes the list (tells_list). Any other process does so after a member has published an
-  // older list: a centre that was restored from a backup does not know which keys were revoked.
+  // The list or the settings, when they are due for publication; otherwise nullopt. Only the centre
+  // (tells_list) publishes the settings. The centre also publishes the list; any other process does
+  // so only after a member has published an older list. The reason: a centre that was restored from
+  // a backup does not know which keys were revoked.
   std::optional<std::string> list_to_tell(double now_s);
   std::optional<std::string> settings_to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
@@ -84,8 +89,8 @@ class BusTrust {
   std::int64_t list_number() const;
   // The stations enrolled by the list in force.
   std::vector<std::string> stations() const;
-  // The list as a signed message of this member, for kTrustChannel. nullopt without a list, or if
-  // this process is no member, because nobody would accept the message.
+  // The list as a signed message of this member, for kTrustChannel. nullopt if there is no list, or
+  // if this process is not a member: nobody would accept the message.
   std::optional<std::vector<std::uint8_t>> list_telling(std::int64_t utime_us);
   std::int64_t site_settings_number() const { return site_.number(); }
 
@@ -121,11 +126,11 @@ class BusTrust {
     SigningKey signing;
   };
   struct Files {
-    std::string list;            // as configured
+    std::string list;            // the list's path, as configured or by default
     bool must_be_there = false;  // the configuration names it
-    std::string kept_list;       // the newest one received; empty: not kept
+    std::string kept_list;       // path for the newest list received; empty: it is not kept
     std::string read;            // the text last read from `list`
-    std::int64_t number = 0;     // of the last kept list
+    std::int64_t number = 0;     // number of the list that was kept last
   };
 
   const Mode mode_;
@@ -147,10 +152,10 @@ class BusTrust {
   struct Telling {
     double due_s = 0.0;
     bool answers = false;      // a member has sent an older list
-    RateLimit strangers{5.0};  // for messages of non-members: verifying them must not delay the
-                               // members
+    RateLimit strangers{5.0};  // limits how many messages of non-members are verified, so that
+                               // members' messages need not wait
   };
-  Telling telling_;  // of the list
+  Telling telling_;  // publication of the list
   struct Watcher {
     bool ends = false;
     std::condition_variable end;

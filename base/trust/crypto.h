@@ -17,8 +17,8 @@ using Bytes = std::span<const std::uint8_t>;
 using PublicKey = std::array<std::uint8_t, 32>;
 using Seed = std::array<std::uint8_t, 32>;  // a private key
 using Signature = std::array<std::uint8_t, 64>;
-using SiteKey = std::array<std::uint8_t, 32>;  // the secret of all members from which site tags are
-                                               // made
+using SiteKey = std::array<std::uint8_t, 32>;  // the secret that all members share; site tags are
+                                               // made with it
 using SiteTag = std::array<std::uint8_t, 8>;
 // The first bytes of a public key's BLAKE2b hash.
 using KeyId = std::array<std::uint8_t, 8>;
@@ -40,8 +40,8 @@ KeyId key_id(const PublicKey& key);
 
 std::array<std::uint8_t, 32> draw_secret();
 
-// from_hex() returns nullopt if the text is not exactly that many bytes. to_hex() writes lower
-// case.
+// from_hex() returns nullopt unless the text is exactly Size bytes in hexadecimal. to_hex() writes
+// lower case.
 std::string to_hex(Bytes bytes);
 template <std::size_t Size>
 std::optional<std::array<std::uint8_t, Size>> from_hex(std::string_view text);

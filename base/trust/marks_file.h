@@ -14,9 +14,9 @@ namespace ols::trust {
 class MarksFile {
  public:
   static constexpr std::size_t kLargest = 20'000'000;  // [byte]
-  static constexpr int kSaid = 600;                    // ten minutes: look() is called each second
+  static constexpr int kSaid = 600;                    // calls of look(), one a second: ten minutes
 
-  // Empty path: nothing is kept. trouble() names a file that could not be read, until look() has
+  // Empty path: nothing is kept. If the file cannot be read, trouble() says so until look() has
   // been called `said` times.
   explicit MarksFile(std::string path, int said = kSaid);
 

@@ -1,4 +1,4 @@
-// Reads the beginning of a message without knowing its type: when it was sent, and by whom. Pure.
+// Reads from the beginning of a message, whatever its type, when it was sent and by whom. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Converts texts signed by the site's root to bus messages and back. Also reads those parts of an
-// order that verification needs.
+// Converts texts signed by the site's root to bus messages and back. Also reads what verification
+// must know about an order.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ ols_msg::trust_list_t to_message(const std::string& list, std::int64_t boot_id,
                                  std::int64_t sequence, std::int64_t utime_us);
 ols_msg::site_settings_t to_settings_message(const std::string& settings, std::int64_t boot_id,
                                              std::int64_t sequence, std::int64_t utime_us);
-// The text, not yet verified; nullopt if the payload is no such message.
+// The text of a trust list or of site settings, not yet verified; nullopt if the payload is another
+// message.
 std::optional<std::string> list_from(Bytes payload);
 std::optional<std::string> settings_from(Bytes payload);
 // Whether a station would read the payload as an order to stop. Any schema number is accepted, as

@@ -1,10 +1,11 @@
 // The sequence numbers received from each key on each channel, so that no message is accepted
 // twice. Pure.
 //
-// A sender's sequence grows within its boot; datagrams may overtake each other by less than
-// kWindow. Each boot has its own mark, so a recording of an earlier boot is refused whatever the
-// clocks show. Only the last kBoots boots are remembered. A message of any other boot must be
-// stamped later than all messages of the forgotten boots, unless the caller allows it.
+// Within one boot of a sender, the sequence grows, except that datagrams may overtake each other by
+// fewer than kWindow numbers. Each boot has its own mark, so that a recording of an earlier boot is
+// refused whatever the clocks show. Only the kBoots boots used last are remembered. A message of a
+// boot that is not remembered must be stamped later than every message of the forgotten boots;
+// otherwise it counts as a replay.
 #pragma once
 
 #include <cstddef>
@@ -24,13 +25,13 @@ class ReplayMarks {
   static constexpr std::uint64_t kWindow = 64;
   static constexpr std::size_t kBoots = 32;
 
-  // True if the message was received before. Also true if its boot is forgotten, so that it may
-  // have been.
+  // True if the message was received before. Also true if that cannot be excluded: the boot is
+  // forgotten, or kWindow or more later numbers were received.
   bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Whether the message was received before, from a boot that is still remembered.
+  // As is_replayed(), but false for a boot that is not remembered.
   bool is_heard(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Call only for a verified message that is no replay: then there are no more streams than the
-  // enrolled keys can send.
+  // Call only for a verified message that is no replay. Then only enrolled keys have streams, and
+  // their number is limited.
   void note(const KeyId& key, const std::string& channel, const MessageHead& head);
 
   // The marks as text for a restart, one line per boot. read() ignores invalid lines, and returns

@@ -3,7 +3,8 @@
 //   …
 //   # signature …128 hexadecimal digits…
 //
-// The signature covers a word for the kind of text, and all lines before it, byte by byte. Pure.
+// The signature covers a word for the kind of text and, byte by byte, all lines before the
+// signature. Pure.
 #pragma once
 
 #include <string>
@@ -18,10 +19,10 @@ struct SignedText {
   Signature signature{};
 };
 
-// `name`: the file's name in errors. Throws ConfigError if there is no signature. Does not check
-// who made it.
+// `name`: the file's name in errors. Throws ConfigError if there is no signature. Does not verify
+// the signature.
 SignedText split_signed(const std::string& text, const std::string& name);
-// Throws ConfigError if it is not this root's signature for this kind of text.
+// Throws ConfigError if the signature is not this root's for this kind of text.
 void require_signed(const SignedText& parts, std::string_view kind, const PublicKey& root,
                     const std::string& name);
 // Returns `body` followed by its signature.

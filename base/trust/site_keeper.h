@@ -1,5 +1,5 @@
-// Holds the site's settings of a process. It takes them from the centre's file or from the bus,
-// whichever has the higher number. Reads and writes the files, and reports refused settings.
+// Holds a process's copy of the site's settings. Takes them from a file of the centre or from the
+// bus, whichever has the higher number. Reads and writes the files, and reports refused settings.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +19,23 @@ struct SiteFiles {
 
 class SiteKeeper {
  public:
-  // Reads both files; trouble() names one that cannot be used. `check`: throws if this program
-  // cannot use the settings; none: it only passes them on.
+  // Reads both files; trouble() names a file that cannot be used. `check`: throws if this program
+  // cannot use the settings; empty: it does not use them, and only passes them on.
   SiteKeeper(const PublicKey& root, SiteFiles files, SettingsCheck check);
 
   SiteSettings settings() const;
   std::int64_t number() const;
   // Takes a settings text from the bus.
   void hear(const std::string& text);
-  // Reads the given file again, and writes the kept one if there are new settings. Call from one
-  // thread.
+  // Reads the file `given` again, and writes the file `kept` if there are new settings. Call always
+  // from the same thread.
   void look();
 
   // The settings text, when it is due for publication; otherwise nullopt.
   std::optional<std::string> to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
 
-  // Why settings offered recently were not adopted; empty alarm: they were, or none were offered.
+  // Why settings that were offered recently were refused; empty alarm: none were refused.
   Alarm trouble() const;
 
  private:
@@ -45,15 +45,15 @@ class SiteKeeper {
   const PublicKey root_;
   const SiteFiles files_;
   const SettingsCheck check_;
-  std::string read_;          // text last read from the given file; only for the thread that calls
-                              // look()
-  std::int64_t written_ = 0;  // number of the settings last kept; only for the same thread
+  std::string read_;          // text last read from the file `given`; only for the thread that
+                              // calls look()
+  std::int64_t written_ = 0;  // number of the settings written last; only for the same thread
   mutable std::mutex mutex_;  // guards the following
   SiteSettings settings_;
   std::int64_t highest_ = 0;  // highest number signed by the root, usable or not
   std::string text_;          // the signed text of `settings_`
   std::string file_trouble_, heard_trouble_;
-  int calm_ = 0;  // consecutive good messages
+  int calm_ = 0;  // number of consecutive messages that were not refused
   double tell_s_ = 0.0;
 };
 

@@ -1,6 +1,6 @@
 // The settings that are the same on all hosts of a site. `ols-key settings` makes them at the
-// centre and signs them with the site's root key. Each change increases their number; a lower
-// number never replaces a higher one.
+// centre and signs them with the site's root key. Each change gives them a higher number; settings
+// with a lower number never replace settings with a higher number.
 //
 //   site = "airfield"
 //   number = 3
@@ -33,17 +33,17 @@ struct SiteSettings {
   std::string body;   // all lines but the signature; the station reads its table [station]
 };
 
-// Checks settings of known origin: throws ConfigError for a value that cannot be used. `name`: the
-// file.
+// Checks settings whose signature was verified: throws ConfigError for a value that cannot be used.
+// `name`: the file's name in errors.
 using SettingsCheck = std::function<void(const SiteSettings&, const std::string& name)>;
 
 // Makes the signed text. `wanted`: a person's text, without site, number and root. Throws
-// ConfigError for keys that are no settings.
+// ConfigError for keys that are not settings.
 std::string sign_settings(const SiteSettings& head, const std::string& wanted,
                           const std::string& name, const SigningKey& root);
 // Throws ConfigError if this root has not signed them as settings.
 SiteSettings read_settings(const std::string& text, const std::string& name, const PublicKey& root);
-// Reads a person's text, which has geoid and [station] only. Throws ConfigError.
+// Reads a person's text, which may have geoid and [station] only. Throws ConfigError.
 SiteSettings read_wanted_settings(const std::string& wanted, const std::string& name);
 
 }  // namespace ols::trust

@@ -1,5 +1,6 @@
-// The boot id of each station, from its verified statuses. A command must name it. Also decides
-// whether a status with an old stamp may be the station's own. Pure.
+// The boot id of each station, from its verified statuses and replies; a command to the station
+// must name it. Also decides whether a status with a wrong stamp may come from the station itself,
+// or is a recording. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +12,13 @@ namespace ols::trust {
 
 class StationBoots {
  public:
-  // Takes a status. fresh: its stamp agrees with this host's clock. A status that is not fresh is
-  // used only if may_be_own().
+  // Takes a status or a reply. fresh: its stamp agrees with this host's clock. A message that is
+  // not fresh is used only if may_be_own() is true.
   void hear(std::string_view station, std::int64_t boot_id, bool fresh, double now_s);
-  // Whether a status that is not fresh may be the station's own. It is taken for a recording if
-  // fresh statuses of the same boot were received within kPreferred_s, or of another boot within
-  // kReboot_s. The reason: a host loses its clock only by booting, and that takes longer than
-  // kReboot_s.
+  // Whether a status that is not fresh may come from the station itself. It counts as a recording
+  // if a fresh status of the same boot was received within the last kPreferred_s, or one of another
+  // boot within the last kReboot_s. The reason: a host loses its clock only when it boots, and that
+  // takes longer than kReboot_s.
   bool may_be_own(std::string_view station, std::int64_t boot_id, double now_s) const;
   static constexpr double kPreferred_s = 5.0, kReboot_s = 20.0;
 

@@ -4,9 +4,9 @@
 //   key id 8 | audience 8 | site tag 8 | Ed25519 signature 64 | version 1 | flags 1 | 0 0 | "OLST"
 //
 // The signature covers "OLS-bus-v1" | length of the payload (4) | channel | payload | key id |
-// audience. The channel is included so that no station's message passes as another's. The site tag
-// is a keyed BLAKE2b over all that and the signature. Only members can make it, and checking it
-// costs a hundredth of checking the signature. Pure.
+// audience. The channel is included so that the message of one station cannot pass as a message of
+// another. The site tag is a keyed BLAKE2b over all that and the signature. Only members can make a
+// site tag, and checking it costs a hundredth of checking the signature. Pure.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,8 @@ struct SignedMessage {
   Trailer trailer;
 };
 
-// nullopt if no trailer of this version follows the message: then all of it is payload.
+// nullopt if the message does not end with a trailer of this version; then the whole message is
+// payload.
 std::optional<SignedMessage> split_trailer(Bytes message);
 // The message without its trailer, if there is one.
 Bytes without_trailer(Bytes message);

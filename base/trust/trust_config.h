@@ -8,7 +8,8 @@ struct Section;
 }
 namespace ols::trust {
 
-// kDefault: the mode in the environment variable OLS_TRUST; without it, off.
+// kDefault: the mode that the environment variable OLS_TRUST names; off if there is no such
+// variable.
 enum class Mode { kDefault, kOff, kObserve, kRequire };
 
 struct TrustConfig {
@@ -20,8 +21,8 @@ struct TrustConfig {
 
 config::Section trust_section(TrustConfig& config);
 
-// Values from the environment for whatever the configuration leaves open. The caller passes in the
-// variables, including systemd's.
+// Environment variables, from OLS and from systemd, with values for whatever the configuration
+// leaves open.
 struct Environment {
   std::string mode{};         // OLS_TRUST
   std::string keys{};         // OLS_KEYS: a folder of NAME.key files, trust.toml, site.toml
@@ -36,7 +37,8 @@ std::string key_path(const TrustConfig& config, const Environment& environment,
 std::string list_path(const TrustConfig& config, const Environment& environment);
 // The path of the site's settings, beside the list.
 std::string settings_path(const TrustConfig& config, const Environment& environment);
-// The path where received data are kept for the next start; empty: there is no state folder.
+// The path of the file in which a process keeps received data for its next start. `what`: the kind
+// of data; `name`: the process. Empty: there is no state folder.
 std::string kept_path(const Environment& environment, const std::string& what,
                       const std::string& name);
 

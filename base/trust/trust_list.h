@@ -1,5 +1,6 @@
-// The members of a site, with their roles and public keys, signed by the site's root. Each change
-// gives the list a higher number; a lower number never replaces a higher one.
+// The trust list: the members of a site, with their roles and public keys, signed by the site's
+// root. Each change gives the list a higher number; a list with a lower number never replaces one
+// with a higher number.
 //
 //   site = "airfield"
 //   number = 3
@@ -59,7 +60,8 @@ std::string sign_list(const TrustList& list, const SigningKey& root);
 // `name`: the file's name in errors. Throws ConfigError if this root has not signed the text as a
 // list.
 TrustList read_list(const std::string& text, const std::string& name, const PublicKey& root);
-// Verifies with the root that the list itself names, which proves nothing about the site.
+// Verifies the signature with the root key that the list itself states. This proves nothing about
+// the site, because anybody can make a key.
 TrustList read_list(const std::string& text, const std::string& name);
 
 }  // namespace ols::trust

@@ -1,4 +1,4 @@
-// Command line options that stand for the [trust] section, for programs without a configuration.
+// Command line options in place of the [trust] section, for programs without a configuration file.
 #pragma once
 
 #include <unistd.h>
@@ -11,8 +11,8 @@
 
 namespace ols::trust {
 
-// With a key, orders are signed by default: a site that requires signatures obeys only signed ones,
-// and any other site ignores the trailer.
+// If there is a key, the program signs its orders by default: a site that requires signatures obeys
+// only signed orders, and any other site ignores the signature.
 inline void add_trust_options(CLI::App& app, TrustConfig& config) {
   const std::map<std::string, Mode> modes{
       {"off", Mode::kOff}, {"observe", Mode::kObserve}, {"require", Mode::kRequire}};

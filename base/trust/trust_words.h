@@ -1,4 +1,5 @@
-// Reads keys that several files of this folder have. Errors name file, line and key.
+// Reads TOML keys that are the same in several kinds of files: key files, trust list, site
+// settings. Errors name file, line and key.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace ols::trust {
 
-// 64 hexadecimal digits: a private or public key, or the site's secret.
+// Reads 64 hexadecimal digits: a private or public key, or the site's secret.
 std::array<std::uint8_t, 32> read_hex(ConfigTable& table, const char* key);
 // Accepts the same names as require_member_name().
 std::string read_name(ConfigTable& table, const char* key);

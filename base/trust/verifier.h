@@ -1,7 +1,7 @@
 // Decides whether a message of the bus may be believed. It must be signed by a member of the site
 // whose role may send it. It must also be meant for this process, fresh, and new. Cheap checks come
-// first. So a stranger's message costs almost nothing, and a member that sends too much is refused
-// before its signatures are verified. Pure.
+// first. Therefore a stranger's message costs almost nothing, and a member that sends too much is
+// refused before its signatures are verified. Pure.
 #pragma once
 
 #include <cstddef>
@@ -27,12 +27,12 @@ enum class Distrust {
   kUnsigned,
   kStranger,  // the key belongs to no member, or the site tag is wrong
   kRevoked,
-  kChannel,    // the member may not send on it, or it names no enrolled station
+  kChannel,    // the member may not send on this channel, or the channel names no enrolled station
   kMalformed,  // signed, but not a valid message
   kOtherBoot,  // a command that names another boot of this station, or no boot
   kStale,      // stamped too far from this host's clock
   kReplayed,
-  kRate,  // more than a member may send on this kind of channel
+  kRate,  // the member sends more than it may on this kind of channel
   kSignature,
   kCount,  // not a reason: the number of reasons
 };
@@ -46,27 +46,28 @@ struct Arrival {
 class Verifier {
  public:
   struct Config {
-    std::string station{};     // the station whose commands must name this boot; empty: none
+    std::string station{};     // this process's station, to which commands must name this boot;
+                               // empty: the process is no station
     std::int64_t boot_id = 0;  // of this process
     std::int64_t clock_tolerance_us = 30'000'000;
-    // For a process that shows and commands stations: lets it see and stop a station with a wrong
-    // clock. Stale statuses are still refused if fresh ones of that station arrive too: then the
-    // stale ones are taken for a recording (station_boots.h).
+    // For a process that shows and commands stations, so that it can see and stop a station with a
+    // wrong clock. If fresh statuses of the station arrive as well, its stale ones are still
+    // refused as a recording (station_boots.h).
     bool takes_stale_statuses = false;
-    // Tells whether an order to a unit is a stop. No function: it is not known.
+    // Whether an order to a PTU is a stop. Without this function, no order counts as a stop.
     std::function<bool(Bytes)> is_stop{};
   };
   struct Verdict {
     std::optional<Distrust> distrust{};
     std::string sender{};  // the member, if its key is known
-    // Whether a command names this boot. If not, only a stop may be obeyed.
+    // For a command: whether it names this boot. If not, only a stop may be obeyed.
     bool addressed = false;
     const ChannelRule* rule = nullptr;  // the rule of a message that may be believed
     MessageHead head{};                 // the head of the same message; views into its bytes
   };
 
-  // Without the site's secret, tags are not checked. This is for recordings: nobody floods a
-  // recording.
+  // Without the site's secret, site tags are not checked. This is meant for recordings: tags
+  // protect against floods, and nobody floods a recording.
   Verifier(Config config, const std::optional<SiteKey>& site, const TrustList& list);
 
   // `message`: as received, with its trailer.
@@ -80,7 +81,7 @@ class Verifier {
   struct Known {
     Member member;
     std::vector<RateLimit> rates;  // one per rule
-    // For each enrolled station: one per rule with such a limit, and one for stops.
+    // By rule, whether it is for stops, and station: the limits of commands per station.
     std::map<std::tuple<std::size_t, bool, std::string>, RateLimit> station_rates{};
   };
   struct Judged;
