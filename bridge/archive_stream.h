@@ -1,5 +1,5 @@
-// Sets up a stream on the server, and checks periodically whether it grows. Uses its own thread,
-// because a server may be slow to answer.
+// Sets up a JetStream stream, in which a NATS server stores messages, and reads the stream's state
+// periodically. Uses its own thread, because a server may be slow to answer.
 #pragma once
 
 #include <condition_variable>
@@ -14,10 +14,10 @@
 
 namespace ols::bridge {
 
-// A site whose stream is copied, with the time of its newest message here.
+// A site whose stream is copied, with the time of the newest status in the copy.
 struct SourceReport {
   std::string site;
-  std::int64_t newest_utime_us = 0;  // 0: no message
+  std::int64_t newest_utime_us = 0;  // 0: there is none
 };
 
 struct ArchiveReport {

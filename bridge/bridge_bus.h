@@ -1,5 +1,5 @@
-// ols-bridge on the bus. It passes on messages unchanged, with their signatures, which it does not
-// check. Call send() from any thread.
+// The bridge's connection to the bus. It passes messages on unchanged, with their signatures, and
+// does not verify the signatures. Call send() from any thread.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ class BridgeBus : public BusClient {
   // Called in the thread of turn(), with the message's bytes as received.
   using Handler = std::function<void(const std::string& channel, Bytes bytes)>;
 
-  // channels: a regular expression; empty: nothing is received.
+  // channels: a regular expression of the channels to receive; empty: nothing is received.
   BridgeBus(std::string url, const std::string& channels, const Handler& handler);
 
   // Returns false if there is no bus.
@@ -25,7 +25,7 @@ class BridgeBus : public BusClient {
 
  private:
   std::mutex mutex_;
-  std::unique_ptr<LcmBus> sender_;  // under the lock; a second connection, which only sends
+  std::unique_ptr<LcmBus> sender_;  // under the lock; a second connection, used only to send
 };
 
 }  // namespace ols::bridge

@@ -21,20 +21,21 @@ struct NatsConfig {
   std::string certificate, key;
 };
 
-// What a server stores, in addition to passing on the live traffic.
+// Which messages a server stores, and for how long. Live traffic passes whether or not it is
+// stored.
 struct ArchiveConfig {
   bool is_on = false;
   double keep_h = 24.0;
   double most_bytes = 16e9;
-  std::string domain;                // of the server that stores the stream; empty: the connected
-                                     // server
+  std::string domain;                // JetStream domain of the server that stores the stream;
+                                     // empty: the connected server
   std::vector<std::string> sources;  // sites whose streams are copied to a region
 };
 
 struct OwnershipConfig {
   bool is_on = false;
-  std::string name;    // the name of this fusion among those that may own a target
-  std::string domain;  // of the server with the store of owners
+  std::string name;    // the name of this fusion among all fusions that may own a target
+  std::string domain;  // JetStream domain of the server with the store of owners
   std::array<double, 4> cell_deg{-90.0, -180.0, 90.0, 180.0};  // south, west, north, east
   double margin_m = 2000.0;
 };
@@ -53,13 +54,13 @@ struct BridgeConfig {
   OwnershipConfig ownership;
 };
 
-// Whether all its servers are reached over TLS.
+// Whether every server of the configuration is reached over TLS.
 bool is_over_tls(const NatsConfig& config);
 config::Section bridge_section(BridgeConfig& config);  // the whole file
 PassageConfig passage_of(const BridgeConfig& config);
 // Throws ConfigError.
 BridgeConfig load_bridge_config(const std::string& path);
-// The same from text. Errors give `name` instead of the path.
+// Parses a text instead of a file. Errors show `name` instead of the path.
 BridgeConfig parse_bridge_config(const std::string& text, const std::string& name);
 
 }  // namespace ols::bridge

@@ -1,5 +1,5 @@
-// Runs ols-bridge: connects its parts. Bus messages are handled in the thread of run(), network
-// messages in the library's threads. Neither waits for the other.
+// Runs ols-bridge: connects its parts. The thread of run() handles messages from the bus; the NATS
+// library's threads handle messages from the network. Neither waits for the other.
 #pragma once
 
 #include <atomic>
@@ -31,8 +31,8 @@ class BridgeProcess {
   void run();
 
  private:
-  // The parts of one connection to a server. They are ended in the reverse order of declaration, so
-  // each ends before the parts that it needs.
+  // The parts that share one connection to a server. They are destroyed in the reverse order of
+  // declaration, so that each part ends before the parts that it uses.
   struct Remote {
     Remote(BridgeProcess& bridge, const BridgeConfig& config);
     NatsLink link;
@@ -57,15 +57,17 @@ class BridgeProcess {
   StatusFile status_file_;
   std::mutex mutex_;
   Passage passage_;                     // under the lock
-  std::optional<Ownership> ownership_;  // under the lock; nullopt: there is no other owner
+  std::optional<Ownership> ownership_;  // under the lock; nullopt: ownership is off, this fusion
+                                        // owns every target
   BridgeBus bus_;
   std::atomic<std::uint64_t> unsent_to_bus_{0};
   AlarmJournal alarms_;
-  std::map<std::string, double> live_since_s_;  // since when each site is heard live
-  LinkReport before_;                           // counts of the connections that have ended
-  std::string tried_anew_;                      // the logged reason for a new attempt; empty: none
-  std::unique_ptr<Remote> remote_;  // declared after everything that its threads use, so that they
-                                    // end first
+  std::map<std::string, double> live_since_s_;  // since when each site's live messages arrive
+  LinkReport before_;                           // summed counts of the connections that have ended
+  std::string tried_anew_;                      // the reason last logged for a new connection;
+                                                // empty: none since the connection works
+  std::unique_ptr<Remote> remote_;  // declared last, so that its threads end before anything that
+                                    // they use
 };
 
 }  // namespace ols::bridge

@@ -1,5 +1,5 @@
-// The rate limit of each channel. If there are too many channels, those that were silent for a
-// minute are forgotten. Pure.
+// Applies a rate limit to each channel separately. If there are too many channels, forgets those
+// that were silent for a minute. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@ class ChannelRateLimits {
 
   explicit ChannelRateLimits(std::size_t most) : most_(most) {}
 
-  // Whether one more message may pass now; counts it.
+  // Whether one more message may pass now; if so, counts it.
   bool passes(std::string_view channel, double rate_hz, double now_s);
 
  private:
-  static constexpr double kSweep_s = 1.0;  // least time between two searches for silent channels,
-                                           // also in a flood of names
+  static constexpr double kSweep_s = 1.0;  // shortest time between two searches for silent
+                                           // channels, even if new names arrive faster
 
   struct One {
     trust::RateLimit limit;

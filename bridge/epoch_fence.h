@@ -1,10 +1,10 @@
-// Decides which owner's commands a station obeys: those with the greatest epoch. Pure.
+// Decides which owner's commands may reach a station: those with the greatest epoch. Pure.
 //
-// Epochs are revisions of one store, so they grow over all targets and owners. Of two commands, the
-// one with the greater epoch therefore comes from the later owner. So the commands of an owner that
-// was replaced are ignored, even while that owner does not know it yet. Epochs are not signed.
-// Impossible ones are therefore refused, and those of a sender that is silent for a minute are
-// forgotten.
+// An epoch is a revision number of the store of owners. Revisions grow with every change of any
+// record. Of two commands, the one with the greater epoch therefore comes from the later owner, and
+// the commands of an owner that was replaced are refused even before that owner knows. Because
+// epochs are not signed, impossible epochs are refused, and a target's epoch is forgotten if no
+// command about the target passes for a minute.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,27 @@
 
 namespace ols::bridge {
 
-// What a command states about its sender. Epoch 0: the sender works without ownership.
+// What the headers of a command state about its target and its sender. Epoch 0: the sender does not
+// use ownership.
 struct Claim {
-  std::string target;  // the region-wide id
+  std::string target;  // the target's id, the same for all fusions
   std::string owner{};
   std::uint64_t epoch = 0;
 };
 
 class EpochFence {
  public:
-  // If the owner that leads a station has sent it no command for this long, it no longer leads the
-  // station, and an owner with a lower epoch may lead it.
+  // An owner leads a station while it sends commands to it. If no command has passed for this long,
+  // nobody leads the station, and an owner with a lower epoch may take over.
   static constexpr double kSilence_s = 2.0;
   static constexpr double kForgotten_s = 60.0;
-  // The store counts the renewals of all targets. Its next revision may exceed the greatest one so
-  // far by at most kMostJump, plus kMost_Hz for each second since then.
+  // What epochs are possible: revisions count the renewals of all targets, so that the next epoch
+  // exceeds the greatest one so far by at most kMostJump, plus kMost_Hz for each second since then.
   static constexpr std::uint64_t kMostEver = 1'000'000'000'000'000, kMostJump = 1'000'000;
   static constexpr double kMost_Hz = 10'000.0;
 
-  // A command without ownership passes while no owner leads the station. `now_s`: monotonic.
+  // Whether the command may reach the station. A command without ownership passes while no owner
+  // leads the station. `now_s`: monotonic.
   bool passes(const std::string& station, const Claim& claim, double now_s);
   // The greatest epoch among commands that have passed; 0: no command had an owner.
   std::uint64_t greatest() const { return greatest_; }
@@ -51,7 +53,7 @@ class EpochFence {
   };
   struct Station {
     Led by;                                // the owner that leads it now
-    std::map<std::string, Heard> targets;  // the greatest epoch for each
+    std::map<std::string, Heard> targets;  // the greatest epoch for each target
   };
   bool is_possible(std::uint64_t epoch, double now_s) const;
   Station* station_of(const std::string& station, double now_s);

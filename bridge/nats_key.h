@@ -1,4 +1,4 @@
-// A user's key in NATS notation: base32 of the kind of key, the key and a checksum. Pure.
+// A user's key in NATS notation: kind of key, key and checksum, together in base32. Pure.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ struct NatsKey {
   std::string seed;        // "SU...": secret; kept in a file that only its owner can read
   std::string public_key;  // "U...": for the server's configuration
 };
-// From an Ed25519 pair: the seed that makes it, and its public half.
+// Writes an Ed25519 key pair, given as its seed and its public half, in this notation.
 NatsKey nats_key(const Key& seed, const Key& public_half);
 
 }  // namespace ols::bridge

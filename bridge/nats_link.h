@@ -1,10 +1,11 @@
-// The connection to a NATS server: publishes and receives, and reconnects by itself. It ends only
-// if the server has refused it twice, or is no NATS server. A message that cannot be sent now is
-// dropped and counted. It never waits for a connection, because a queued command is a stale one.
+// The connection to a NATS server: publishes and receives messages, and reconnects by itself. The
+// link ends only if the server has refused it twice, or is not a NATS server. A message that cannot
+// be sent at once is dropped and counted. Messages never wait for a connection, because a queued
+// command is a stale command.
 //
-// On an open connection the library collects up to 32 kB, and its own thread writes them. While
-// that thread waits for the server, send() waits too. If the server does not read for kWrite_ms,
-// the library reconnects.
+// On an open connection, the library collects up to 32 kB, which a thread of its own writes to the
+// server. While that thread waits for the server, send() waits too. If the server reads nothing for
+// kWrite_ms, the library reconnects.
 #pragma once
 
 #include <atomic>
@@ -32,17 +33,17 @@ struct LinkReport {
   bool is_open = false;
   std::uint64_t openings = 0, losses = 0;
   std::uint64_t sent = 0, unsent = 0;  // unsent: dropped, because there was no connection
-  std::uint64_t displaced = 0;         // dropped, because they arrived faster than they were
-                                       // handled
+  std::uint64_t displaced = 0;         // received messages dropped, because they arrived faster
+                                       // than they were handled
   std::uint64_t refusals = 0;          // refusals by the server on an open connection
-  std::string refusal;                 // the last refusal, while it is recent
-  std::string trouble;                 // why there is no connection; empty: there is one
-  bool has_ended = false;              // the library does not reconnect
+  std::string refusal;                 // the last refusal, if it is recent
+  std::string trouble;                 // why there is no connection; empty: the connection is open
+  bool has_ended = false;              // the library does not reconnect any more
 };
 
 class NatsLink {
  public:
-  // Called in the library's threads. Messages of one subject come one after the other.
+  // Called in the library's threads, for one message of a subject at a time.
   using Handler =
       std::function<void(std::string_view subject, const Headers& headers, Bytes bytes)>;
 
@@ -56,7 +57,7 @@ class NatsLink {
   // Returns false if there is no connection.
   bool send(const Outgoing& outgoing, Bytes bytes);
   LinkReport report() const;
-  // For streams and stores on the same connection; valid while it is open.
+  // For streams and stores that use the same connection. Use it only while the link is open.
   __natsConnection* connection() const { return connection_; }
 
  private:
@@ -65,7 +66,7 @@ class NatsLink {
   };
   struct Said {
     std::string trouble = "connecting";
-    std::string unheard;  // a refused subscription; the server reports it only once
+    std::string unheard;  // a refused subscription; kept, because the server reports it only once
     std::string refusal;  // a refused publication
     double refused_s = -1e9;
   };
@@ -91,7 +92,8 @@ class NatsLink {
   Tally tally_;
   mutable std::mutex mutex_;
   std::condition_variable ended_;
-  std::size_t callers_ = 0;  // library threads that have not called back yet; under the lock
+  std::size_t callers_ = 0;  // number of final callbacks still to come from the library's threads;
+                             // under the lock
   Said said_;                // under the lock
 };
 

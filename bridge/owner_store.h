@@ -1,5 +1,5 @@
-// The store of owners: a bucket of keys and values at a NATS server. It uses two threads, because
-// the server may be slow: one sends requests, the other receives changes.
+// The store of owners: a key-value bucket of a NATS server. Uses two threads, because the server
+// may be slow: one thread sends requests, the other receives changes.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,9 @@ namespace ols::bridge {
 
 class OwnerStore {
  public:
-  // Called in these two threads.
+  // Called in these two threads; answer() also in the thread that calls ask(). Each is as the
+  // method of Ownership that it is passed to: learn(), learn_gone(), learn_wish(), answer(),
+  // feel_store().
   struct Ears {
     std::function<void(const std::string& target, const OwnerRecord&, std::uint64_t)> learn;
     std::function<void(const std::string& target)> gone;
@@ -35,9 +37,11 @@ class OwnerStore {
   OwnerStore(const OwnerStore&) = delete;
   OwnerStore& operator=(const OwnerStore&) = delete;
 
-  // Requests are handled one after the other. If too many wait, the excess is answered with kNone.
+  // Queues requests, which are handled one after the other. Requests beyond the queue's limit are
+  // answered with kNone at once.
   void ask(std::vector<StoreRequest> requests);
-  // Time from request to answer: that of the last request, or of the longest waiting one.
+  // Time from a request to its answer, of the last request answered; longer if a waiting request is
+  // already older.
   double delay_s() const;
 
  private:
@@ -57,7 +61,7 @@ class OwnerStore {
   NatsLink& link_;
   const std::string domain_;
   const Ears ears_;
-  __jsCtx* js_ = nullptr;  // used by the working thread only, until the watching thread has begun
+  __jsCtx* js_ = nullptr;  // used only by worker_, until watcher_ has begun
   __kvStore* store_ = nullptr;
   mutable std::mutex mutex_;
   std::condition_variable asked_;

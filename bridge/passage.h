@@ -1,7 +1,9 @@
-// Decides which messages pass between a bus and the network of sites. It changes no message. Pure.
+// Decides which messages pass between a bus and the network of sites. Messages pass unchanged.
+// Pure.
 //
-// It holds no keys: on a signed bus, the receiver verifies the signatures. It knows which messages
-// may go where, how large and how frequent they may be, and how old a command may be.
+// It has no keys: where messages are signed, the receiver verifies the signatures. Its rules say
+// which messages may go where, how large and how frequent they may be, and how old a command may
+// be.
 #pragma once
 
 #include <array>
@@ -27,7 +29,7 @@ namespace ols::bridge {
 using Bytes = std::span<const std::uint8_t>;
 using Headers = std::map<std::string, std::string>;
 
-inline constexpr const char* kIdHeader = "Nats-Msg-Id";  // by which a stream stores a message once
+inline constexpr const char* kIdHeader = "Nats-Msg-Id";  // a stream stores each id only once
 inline constexpr const char* kTargetHeader = "Ols-Target";
 inline constexpr const char* kEpochHeader = "Ols-Epoch";
 inline constexpr const char* kUnconfirmedHeader = "Ols-Unconfirmed";
@@ -40,13 +42,14 @@ enum class Role {
 
 // Why a message does not pass.
 enum class Refusal {
-  kShape,  // a channel or subject that never crosses, or not in this direction
+  kShape,  // messages of this channel or subject never pass, or not in this direction
   kSize,
-  kMalformed,  // it does not begin as a message of this kind does
-  kName,       // the station is known at another place, or the message names another station
+  kMalformed,  // the message does not begin as its kind does, or its headers are impossible
+  kName,       // the station is not one of the site's, its name belongs to another place, or the
+               // message names another station
   kRate,
-  kStale,   // too old by this host's clock; for a command also: from the future
-  kOwn,     // it came in over the bridge, so it must not go out again
+  kStale,   // too old by this host's clock; a command also if it is from the future
+  kOwn,     // the message came in over the bridge, so it must not go out again
   kEpoch,   // a command from an owner that was replaced
   kNobody,  // a command to a station from which nothing was received
   kNotOwned,
@@ -57,9 +60,9 @@ const char* to_string(Refusal reason);
 struct PassageConfig {
   Role role = Role::kSite;
   std::string region = "region", site = "site";
-  std::vector<std::string> stations{};  // the site's stations that go out; empty: all
-  std::vector<Selection> takes{};       // others' stations that come in
-  std::vector<std::string> commands{};  // commands that cross
+  std::vector<std::string> stations{};  // stations of the site whose messages go out; empty: all
+  std::vector<Selection> takes{};       // stations of other sites whose messages come in
+  std::vector<std::string> commands{};  // commands that may pass
   bool targets = false;                 // whether targets of the fusion on this bus go out
   double command_age_s = 1.0, live_age_s = 5.0;
 };
@@ -80,57 +83,64 @@ struct Counts {
   std::string last_refusal{};
 };
 
-// The id and epoch of a target. They go out with the target and with commands about it.
+// The id and epoch of a target, which go out with the target and with commands about it.
 struct Grant {
-  std::string id;            // region-wide; empty: no target (a search)
-  std::uint64_t epoch = 0;   // 0: without ownership
-  bool is_confirmed = true;  // false: the store of owners does not answer
+  std::string id;            // the target's id, the same for all fusions; empty: no target (a
+                             // search)
+  std::uint64_t epoch = 0;   // 0: ownership is not used
+  bool is_confirmed = true;  // false: the owner's lease has ended, because the store does not
+                             // answer
   std::string owner{};       // name and start of a fusion
 };
-// nullopt: another fusion owns the target of this message.
+// Returns the grant for a message; nullopt if this fusion must not publish the message's target.
 using Owned = std::function<std::optional<Grant>(Kind, Bytes)>;
 
-// The claim in a message's headers; nullopt if no bridge would write such headers.
+// Reads the claim from a message's headers; nullopt if no bridge would write such headers.
 std::optional<Claim> claim_of(const Headers& headers);
 
 class Passage {
  public:
   explicit Passage(PassageConfig config) : config_(std::move(config)) {}
 
-  // The message to send out; nullopt: it does not pass. `bytes`: as received, with the signature.
-  // `owned`: called for the targets of a region and the commands that concern them.
+  // The subject and headers under which a message from the bus goes out; nullopt: it does not pass.
+  // `bytes`: as received, with the signature. `owned`: called for targets, and for commands that
+  // concern a target.
   std::optional<Outgoing> out(std::string_view channel, Bytes bytes, const Now& now,
                               const Owned& owned = {});
-  // The channel on which the same bytes go to the bus; nullopt: they do not pass.
+  // The channel on which a message from the network goes to the bus, with the same bytes; nullopt:
+  // it does not pass.
   std::optional<std::string> in(std::string_view subject, const Headers& headers, Bytes bytes,
                                 const Now& now);
-  // Whether the message is another owner's target, and fresh enough for its position to be used.
+  // Whether another owner's target is a valid message, and is fresh enough for its position to be
+  // used.
   bool hears_target(std::string_view subject, Bytes bytes, const Now& now);
 
-  // The subscriptions on the bus and on the network.
+  // What to subscribe to, on the bus (a regular expression) and on the network.
   std::string channels() const;
   std::vector<std::string> subjects() const;
 
   const Counts& out_counts() const { return out_; }
   const Counts& in_counts() const { return in_; }
-  // The greatest epoch among commands that came in; 0: no command had an owner.
+  // The greatest epoch of a command that came in; 0: no command stated an epoch.
   std::uint64_t greatest_epoch() const { return epochs_.greatest(); }
   const SequenceWatch& gaps() const { return gaps_; }
-  // The last live message that came late ("alfa, 12 s"), while it is recent; otherwise empty.
+  // The last live message that came in too late ("alfa, 12 s"), if that was recent; otherwise
+  // empty.
   std::string late(double now_s) const;
   std::size_t stations() const { return places_.size(); }
-  // How long ago the last station of each site was heard, by site.
+  // By site: the time since the last message of any of its stations.
   std::map<std::string, double> sites_ago_s(double now_s) const {
     return places_.sites_ago_s(now_s);
   }
 
  private:
-  // The most channels that are counted. For bearings and statuses: two per station that the bridge
-  // knows. Commands have their own limit, because they may name stations that do not exist.
+  // Limits of the number of channels with a rate. For messages of stations: two per station that
+  // the bridge may know, and one. Commands have a limit of their own, because they may name
+  // stations that do not exist.
   static constexpr std::size_t kMostChannels = 2 * StationPlaces::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 
-  // Why a message does not pass. nullopt: it passes, and the last argument is complete.
+  // Why a message does not pass. nullopt: it passes, and the last argument holds the result.
   Judged judge_out(std::string_view channel, Bytes bytes, const Now& now, const Owned& owned,
                    Outgoing& outgoing);
   Judged judge_in(std::string_view text, const Headers& headers, Bytes bytes, const Now& now,

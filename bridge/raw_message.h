@@ -1,5 +1,5 @@
-// A message that is passed on unchanged, with its signature. It has only the members of an LCM type
-// that are needed for sending.
+// A message that is passed on unchanged, with its signature. Of the members of an LCM type, it has
+// only those that sending needs.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Finds messages that a link has lost, from each sender's own sequence numbers. Pure.
+// Finds the messages that a link has lost, by the gaps in each sender's sequence numbers. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@ class SequenceWatch {
   // `stream`: a station and a kind of message.
   void hear(const std::string& stream, std::int64_t boot_id, std::int64_t sequence, double now_s);
 
-  // Number of missing messages over all streams. A late message is subtracted again.
+  // Number of missing messages of all streams. A message that arrives late is subtracted again.
   std::uint64_t missing() const { return missing_; }
-  // Number of messages that came twice, or so late that they cannot be told from repeated ones.
+  // Number of messages that arrived twice, or so late that they cannot be distinguished from
+  // repeated ones.
   std::uint64_t repeated() const { return repeated_; }
-  // The last stream with a gap within kAlarm_s; otherwise empty.
+  // The stream that had the last gap, if that was within the last kAlarm_s; otherwise empty.
   std::string alarm(double now_s) const;
   static constexpr double kAlarm_s = 10.0;
 

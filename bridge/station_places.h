@@ -1,6 +1,6 @@
-// The region and site of each station. A station's name belongs to the place from which it is
-// heard, until the station falls silent. Without this rule a fusion would take two stations of the
-// same name for one, and messages that came in would go out again. Pure.
+// The region and site of each station. A station's name belongs to the place (region and site) from
+// which its messages come, until the station falls silent. Without this rule, a fusion would take
+// two stations of the same name for one, and messages that came in would go out again. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,10 @@ namespace ols::bridge {
 
 class StationPlaces {
  public:
-  static constexpr double kSettled_s = 60.0;  // after this silence a station's name is free again
-  // Limits for one site, so that invented names leave room for other sites' stations.
+  static constexpr double kSettled_s = 60.0;  // after this much silence, a station's name is free
+                                              // again
+  // Most stations of one site, and of all sites: invented names of one site leave room for the
+  // others.
   static constexpr std::size_t kMostOfSite = 2'000, kMost = 20'000;
 
   struct Place {
@@ -21,21 +23,21 @@ class StationPlaces {
     double heard_s = 0.0;
   };
 
-  // The place where the station was heard last; null: it was never heard.
+  // The place from which the station's last message came; null: none is known.
   const Place* find(const std::string& station) const;
-  // Whether the station's name now belongs to another place than this one.
+  // Whether the station's name now belongs to a place other than this one.
   bool is_elsewhere(const std::string& station, const std::string& region, const std::string& site,
                     double now_s) const;
-  // Notes that the station is heard at this place. False: the name belongs to another place, or
-  // there is no room.
+  // Notes that a message of the station came from this place. False: the name belongs to another
+  // place, or there is no room.
   bool settle(const std::string& station, const std::string& region, const std::string& site,
               double now_s);
   std::size_t size() const { return places_.size(); }
-  // How long ago the last station of each site was heard, by site.
+  // By site: the time since the last message of any of its stations.
   std::map<std::string, double> sites_ago_s(double now_s) const;
 
  private:
-  // Least time between two searches for silent stations, also in a flood of names.
+  // Shortest time between two searches for silent stations, even if new names arrive faster.
   static constexpr double kSweep_s = 1.0;
 
   using Site = std::pair<std::string, std::string>;  // region, site

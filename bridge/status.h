@@ -23,14 +23,15 @@ struct ArchiveStatus {
   bool is_wanted = false, is_kept = false;
   std::string trouble;
   std::uint64_t messages = 0, bytes = 0;
-  std::vector<std::string> standing;  // sites that are heard live but not copied
+  std::vector<std::string> standing;  // sites whose live messages arrive, but whose stream is not
+                                      // copied
 };
 
 struct OwnershipStatus {
   bool is_wanted = false, is_confirmed = true;
   std::size_t owned = 0, others = 0;
   std::uint64_t taken = 0, handed_over = 0, lost = 0;
-  std::uint64_t epoch = 0;  // the greatest among owned targets
+  std::uint64_t epoch = 0;  // the greatest epoch of an owned target
   double delay_s = 0.0;     // from a request to the store's answer
 };
 
@@ -44,9 +45,9 @@ struct BridgeStatus {
   OwnershipStatus ownership;
   Counts out, in;
   std::uint64_t missing = 0, repeated = 0, unsent_to_bus = 0;
-  std::uint64_t obeyed_epoch = 0;  // the greatest among commands that came in
-  std::string gap;                 // the stream with the last gap, while recent
-  std::string late;                // the last live message that came late, while recent
+  std::uint64_t obeyed_epoch = 0;  // the greatest epoch of a command that came in
+  std::string gap;                 // the stream with the last gap, if recent
+  std::string late;                // the last live message that came in too late, if recent
 };
 
 // One alarm for each condition; empty if all is well.
@@ -55,8 +56,9 @@ std::vector<Alarm> alarms(const BridgeStatus& status);
 std::string in_one_line(const BridgeStatus& status);
 std::string to_json(const BridgeStatus& status);
 
-// The sites that are heard live now, but of which nothing has reached the archive for `patience_s`.
-// This is checked here because a server that has stopped copying reports no trouble.
+// The sites whose live messages arrive now, but of which nothing has reached the archive for
+// `patience_s`. The bridge checks this itself, because a server that has stopped copying reports no
+// trouble.
 std::vector<std::string> standing_still(const std::map<std::string, double>& heard_ago_s,
                                         const std::map<std::string, double>& archived_ago_s,
                                         double patience_s);

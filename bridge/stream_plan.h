@@ -1,5 +1,5 @@
-// Plans which messages of a site or a region a server stores: bearings, statuses and targets, but
-// never commands, because a queued command is a stale command. Pure.
+// Plans which messages of a site or a region a server stores. Commands are never stored, because a
+// stored command is a stale command. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ struct StreamSource {
 
 struct StreamPlan {
   std::string name;
-  std::vector<std::string> subjects;  // that this server itself receives; empty: it copies streams
+  std::vector<std::string> subjects;  // what the server stores of the messages that it receives;
+                                      // empty: it only copies streams
   std::vector<StreamSource> sources;
   std::int64_t keep_ns = 0, most_bytes = 0;
 };
@@ -25,12 +26,12 @@ struct StreamPlan {
 // nullopt if no stream is configured.
 std::optional<StreamPlan> plan_stream(const BridgeConfig& config);
 
-// Whether an existing stream of the planned name belongs to this bridge, by its subjects and
-// sources: all that it stores is from this region or site. It may be of an earlier configuration.
+// Whether an existing stream with the planned name belongs to this bridge, perhaps from an earlier
+// configuration. It does if all its subjects and sources are of this region or site.
 bool is_same_stream(const BridgeConfig& config, const std::vector<std::string>& subjects,
                     const std::vector<std::string>& sources);
 
-// Whether a subject with wildcards covers this one, by NATS's rules.
+// Whether a pattern, which is a subject with NATS wildcards, covers the subject.
 bool covers(const std::string& pattern, const std::string& subject);
 
 }  // namespace ols::bridge

@@ -1,4 +1,4 @@
-// The subjects of messages between sites, and the bus channel of each. Pure.
+// The NATS subjects of messages between sites, and the bus channel of each. Pure.
 //
 //   ols.v1.<region>.<site>.<station>.bearing | status | reply | skyline | cmd.<command>
 //   ols.v1.<region>.target
@@ -22,30 +22,31 @@ struct Subject {
   friend bool operator==(const Subject&, const Subject&) = default;
 };
 
-// Whether the text may name a region, a site or a station: 1 to 40 letters, digits, - or _. A
-// station named "*" or "a.b" would give its subject another meaning.
+// Whether the text may name a region, a site or a station: 1 to 40 letters, digits, - or _. NATS
+// would read a station named "*" or "a.b" in a subject as something else.
 bool is_name(std::string_view text);
-// What a station reports, as a subject names it: "bearing", "status", ...
+// The words for a station's reports in a subject: "bearing", "status", ...
 const std::vector<std::string>& reports();
-// The word of such a kind; empty for commands and targets.
+// The word for this kind of report; empty for commands and targets.
 std::string_view report_word(Kind kind);
 // The commands that a subject may carry.
 const std::vector<std::string>& commands();
 
-// nullopt for any other subject, and for one with wildcards.
+// nullopt for any other subject, and for a subject with wildcards.
 std::optional<Subject> parse_subject(std::string_view text);
 std::string to_text(const Subject& subject);
 
-// The kind of message on a station's channel; nullopt for a channel that never crosses.
+// What a channel carries; nullopt for a channel whose messages never pass a bridge.
 struct Content {
   Kind kind = Kind::kTarget;
   std::string station, command;
 };
 std::optional<Content> content_of(std::string_view channel);
-// The channel on the bus. A station's message keeps its channel, because the channel is signed.
+// The channel on the bus. It is the one on which the station sent, because the signature covers the
+// channel.
 std::string channel_of(const Subject& subject);
 
-// Stations by "REGION.SITE.STATION", each part a name or *.
+// A selection of stations: "REGION.SITE.STATION", each part a name or *.
 struct Selection {
   std::string region, site, station;
 

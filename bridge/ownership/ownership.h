@@ -1,16 +1,17 @@
-// Decides which of several fusions that see the same target owns it. The owner publishes the target
-// and slews stations to it. All fusions track the target, whoever owns it. Pure: the store's
-// contents come in, requests to the store go out.
+// Decides which fusion owns a target that several fusions track. All of them go on tracking it, but
+// only the owner publishes the target and slews stations to it. Pure: the store's contents come in,
+// requests to the store go out.
 //
-// An owner renews its record by compare-and-set. A fusion that takes over the target does the same,
-// so only one of the two succeeds. An owner counts its lease from before it sent the renewal, and
-// makes it slightly shorter. Another fusion counts the lease from when it received the renewal. So
-// two fusions never own one target at the same instant, whatever their clocks show.
+// An owner renews its record by compare-and-set. A fusion that takes over the target does the same;
+// therefore only one of the two succeeds. The owner counts its lease from the moment before it
+// sends a renewal, and ends it early. Any other fusion counts the lease from the moment when it
+// receives the renewal. Two fusions therefore never hold the lease of one target at the same
+// instant, whatever their clocks show.
 //
-// While the store does not answer, an owner continues, and marks each message as unconfirmed. If
-// the store answers nobody, no fusion can take the target. If only this owner is cut off, another
-// fusion takes the target, and both publish. The old owner stops when it receives a message of the
-// new one, which has the greater epoch.
+// While the store does not answer, an owner goes on without a lease, and marks each message as
+// unconfirmed. If the store answers nobody, no other fusion can take the target. If only the owner
+// is cut off from the store, another fusion takes the target, and both publish it. The old owner
+// stops when it receives a message of the new owner, which has the greater epoch.
 #pragma once
 
 #include <cstdint>
@@ -26,30 +27,31 @@
 namespace ols::bridge {
 
 struct OwnershipRules {
-  std::string name;  // name and start of this fusion; never used again
+  std::string name;  // this fusion's name and a number drawn at its start; a later start has
+                     // another one
   Cell cell_deg{-90.0, -180.0, 90.0, 180.0};
-  double margin_m = 2000.0;  // how far beyond the border a target must be, plus 3 sigma, before it
-                             // changes owner
+  double margin_m = 2000.0;  // this fusion asks for another owner's target if the target is inside
+                             // cell_deg by more than this, and by more than 3 sigma
 };
 
-// A target of this fusion, as just published.
+// A target of this fusion, as it has just published it.
 struct Track {
-  std::int64_t id = 0;  // this fusion's number for it
+  std::int64_t id = 0;  // this fusion's number for the target
   Vector position_m{}, velocity_m_s{};
   double sd_m = 0.0;
   double latitude_deg = 0.0, longitude_deg = 0.0;
 };
 
-// A target as just published by another owner.
+// A target as another owner has just published it.
 struct TargetReport {
-  std::string target;  // region-wide id
+  std::string target;  // the target's id, the same for all fusions
   Vector position_m{}, velocity_m_s{};
   double sd_m = 0.0;
   std::uint64_t epoch = 0;
 };
 
-// A request to the store: write this record if the stored revision is still `revision` (0: there is
-// no record). With `is_wish`: tell the owner that this fusion wants the target.
+// A request to the store: write this record, if the revision in the store is still `revision` (0:
+// the store has no record). If `is_wish`: tell the owner that this fusion wants the target.
 struct StoreRequest {
   std::string target;
   OwnerRecord record;
@@ -65,36 +67,36 @@ class Ownership {
 
   void hear(const Track& track, const Now& now);
   void hear(const TargetReport& sighting, const Now& now);
-  // The store now has this record of a target.
+  // Tells that the store now has this record of a target.
   void learn(const std::string& target, const OwnerRecord& record, std::uint64_t revision,
              const Now& now);
-  // The store has no record of the target any more.
+  // Tells that the store has no record of the target any more.
   void learn_gone(const std::string& target, const Now& now);
-  // `by` wants to own the target. A store may repeat an old wish; its revision shows that it is
-  // old.
+  // Tells that the fusion `by` wants to own the target. A store may repeat an old wish, which is
+  // recognised by its revision.
   void learn_wish(const std::string& target, const std::string& by, std::uint64_t revision,
                   const Now& now);
-  // The store's answer to a request of step(); wishes are not answered. After a refusal, learn()
-  // has already been called with the store's actual record, or that record is still unknown.
+  // Takes the store's answer to a request of step(); wishes have no answer. Before answer() reports
+  // a refusal, learn() has been called with the record in the store, if that record could be read.
   void answer(const StoreRequest& request, StoreAnswer answer, std::uint64_t revision,
               const Now& now);
 
-  // Whether the store answers now. An owner is not blamed for renewals that an outage has
-  // prevented.
+  // Tells whether the store answers now. After an outage of the store, every lease counts from the
+  // end of the outage, because nobody could renew it before.
   void feel_store(bool answers, const Now& now);
 
-  // The requests that are due now. Call some 20 times a second.
+  // Returns the requests that are due now. Call about 20 times a second.
   std::vector<StoreRequest> step(const Now& now);
 
-  // The grant under which this fusion publishes its target now; nullopt: another one does. A search
-  // (id 0) has no owner.
+  // The id and epoch under which this fusion publishes its target now; nullopt: it must not publish
+  // the target. `track_id`: not 0, because a search (id 0) has no owner.
   std::optional<Grant> grant(std::int64_t track_id, const Now& now) const;
 
   struct Counts {
     std::size_t owned = 0, others = 0;
     std::uint64_t taken = 0, handed_over = 0, lost = 0;
-    std::uint64_t epoch = 0;   // the greatest among owned targets
-    bool is_confirmed = true;  // for all owned targets
+    std::uint64_t epoch = 0;   // the greatest epoch of an owned target
+    bool is_confirmed = true;  // the store answers, and the leases of all owned targets hold
   };
   Counts counts(const Now& now) const;
 
@@ -109,7 +111,7 @@ class Ownership {
   struct Entry {
     OwnerRecord record;
     std::uint64_t revision = 0;
-    // Wishes up to old_revision are old. next_old_revision replaces it from time to time.
+    // Wishes with a revision up to old_revision are ignored. next_old_revision will replace it.
     std::uint64_t old_revision = 0, next_old_revision = 0;
     double marked_s = -1e9;
     double changed_s = 0.0;  // when this fusion received the record
@@ -121,16 +123,17 @@ class Ownership {
     double wish_due_s = 0.0;
     Request request;
     bool is_mine = false;
-    bool is_doubted = false;      // another fusion has taken it, as far as known
+    bool is_doubted = false;      // another fusion seems to have taken it; the store's next answer
+                                  // decides
     std::uint64_t epoch = 0;      // if owned
     double held_until_s = -1e9;   // if owned: its lease
     double doubled_since_s = -1;  // if owned: since when another fusion has a record of the same
-                                  // target; negative: there is no such record
+                                  // target, too; negative: it has none
   };
   struct Seen {
     Track track;
     double seen_s = 0.0, first_s = 0.0;
-    std::string target;  // its entry; empty: none yet
+    std::string target;  // key of its entry; empty: none yet
   };
   using Requests = std::vector<StoreRequest>;
 
@@ -150,8 +153,8 @@ class Ownership {
   double delay_s() const;
 
   const OwnershipRules rules_;
-  std::map<std::string, Entry> entries_;  // by region-wide id
-  std::map<std::int64_t, Seen> tracks_;   // by the fusion's own id
+  std::map<std::string, Entry> entries_;  // by the id that is the same for all fusions
+  std::map<std::int64_t, Seen> tracks_;   // by this fusion's own number
   std::int64_t beat_ = 0, made_ = 0;
   bool answers_ = false;
   Counts counts_;
