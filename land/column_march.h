@@ -1,4 +1,5 @@
-// Follows one azimuth outwards from a camera and records the visible land as a staircase.
+// Goes along one azimuth outwards from a camera, and records the visible land as a staircase
+// (land/staircase.h).
 #pragma once
 
 #include <vector>
@@ -15,19 +16,20 @@ struct MarchSettings {
   double cell_per_distance = 0.0;
   double refraction_k = 0.0;
   double refraction_k_sd = 0.0;  // 1-sigma
-  // The surface is lowered by this amount at the camera, and by less with growing distance, down to
-  // nothing at kLowered_m.
+  // The surface is lowered by this amount at the camera. The amount decreases with distance, to
+  // zero at kLowered_m.
   double lowered_m = 0.0;
-  // The camera is below a roof or tree-tops; these are ignored as far as their edge.
+  // Whether the camera is below a roof or tree-tops. If so, the roof or wood above the camera is
+  // ignored as far as its edge.
   bool covered = false;
 };
 
-// The distance over which the error of an elevation model stays about the same. In the usual models
-// it is a few samples.
+// The distance over which the error of an elevation model stays about the same. In common models
+// this is a few samples.
 inline constexpr double kLowered_m = 300.0;
 
-// Adds the azimuth's steps to `steps`. Returns the distance at which the surface ends or has its
-// first gap [m].
+// Adds the steps of this azimuth to `steps`. Returns the distance [m] at which the surface has its
+// first gap or ends; reach_m if it has no gap.
 double march(const Surface& surface, const LocalFrame& frame, double azimuth_rad,
              const MarchSettings& settings, std::vector<Step>& steps);
 

@@ -1,4 +1,4 @@
-// The coverings of the land (buildings and woods), and which of them cover a place.
+// The coverings of the land, which are buildings and woods, and a search for those above a place.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,24 +10,25 @@ namespace ols::land {
 
 enum class CoveringKind { kBuilding, kWood };
 
-// Polygons of (longitude, latitude) [rad]. Outlines and holes are not distinguished: a place is
-// inside if an odd number of rings contain it. A ring's last corner is joined to its first.
+// One or more rings of corners (longitude, latitude) [rad]. Outer rings and holes are not
+// distinguished: a place is inside if an odd number of rings contain it. A ring's last corner is
+// joined to its first.
 struct Covering {
   CoveringKind kind = CoveringKind::kBuilding;
   std::vector<std::vector<Eigen::Vector2d>> rings;
-  // Above the ground; for a building, above the lowest ground at its corners.
+  // Height of the top above the ground; for a building, above the lowest ground at its corners.
   double height_m = 0.0;
   double sd_m = 0.0;  // 1-sigma of height_m
 };
 
-// Finds coverings by place in a lattice of cells. Each cell stores the edges that cross it, and for
-// each polygon whether the cell's centre is inside. A look-up therefore takes the same time however
-// long the outlines are.
+// Finds coverings by place, in a lattice of cells. For each covering in a cell, the cell stores the
+// edges that cross it, and whether the cell's centre is inside. A look-up therefore takes the same
+// time however long the outlines are.
 class CoveringIndex {
  public:
   explicit CoveringIndex(const std::vector<Covering>& coverings);
 
-  // Calls `take` with the number of each covering above this place.
+  // Calls `take` with the index of each covering above this place.
   template <class Take>
   void for_each_at(const Eigen::Vector2d& place, Take take) const {
     const std::size_t cell = cell_of(place);

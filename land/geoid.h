@@ -1,5 +1,5 @@
 // The height of the geoid (sea level) above the WGS84 ellipsoid, from a grid file that PROJ reads.
-// Without a geoid, no height above sea level is ever written.
+// Without a geoid, no program writes a height above sea level.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class Geoid {
   Geoid(const Geoid&) = delete;
   Geoid& operator=(const Geoid&) = delete;
 
-  // [m]; not finite outside the grid.
+  // The height of the geoid above the ellipsoid [m]; not finite outside the grid.
   double height_m(double latitude_deg, double longitude_deg) const;
 
  private:

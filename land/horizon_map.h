@@ -1,13 +1,14 @@
 // What the land hides from a camera: for each azimuth a staircase of (elevation, distance). The
 // elevation is the highest elevation of the land up to that distance.
 //
-// Angles are apparent angles: in the east-north-up frame at the camera (geometry/direction.h),
-// lifted by terrestrial refraction, k d^2 / 2R. Points of the surface are converted by exact WGS84
-// geometry. `distance_m` is horizontal in that frame; a range is measured along the straight line.
+// Elevations are apparent: the elevation in the east-north-up frame at the camera
+// (geometry/direction.h), raised by terrestrial refraction, which lifts a point at distance d by k
+// d^2 / 2R (land/refraction.h). Points of the surface are converted by exact WGS84 geometry. A
+// distance is horizontal in that frame; a range is measured along the straight line.
 //
-// The land is sampled in cells. A cell is as long as the distance between neighbouring columns, and
-// at least `least_cell_m`; crests are refined within a cell. The staircase keeps distances to
-// within a quarter of a cell.
+// A column is one azimuth. The land is sampled along each column in cells. A cell is as long as the
+// distance between neighbouring columns, and at least `least_cell_m`; crests are refined within a
+// cell. Distances in the staircase are accurate to a quarter of a cell.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,11 +27,11 @@
 namespace ols::land {
 
 struct HorizonMapConfig {
-  int columns = 7200;         // number of azimuths: 0.05 degrees each
-  double reach_m = 30'000.0;  // horizontal distance
+  int columns = 7200;         // number of azimuths; 7200 are 0.05 degrees apart
+  double reach_m = 30'000.0;  // horizontal distance at which the map ends
   double least_cell_m = 1.0;
-  // Only azimuths in this sector are computed (the range in which a mount turns); elsewhere the
-  // land is unknown.
+  // Only azimuths in this sector are computed, for example the range of a mount's pan axis. In
+  // other directions the land is unknown.
   double from_azimuth_rad = 0.0;
   double sector_rad = 2.0 * kPi;  // clockwise
   double refraction_k = kRefraction;
@@ -41,40 +42,43 @@ struct HorizonMapConfig {
 struct Skyline {
   double elevation_rad = 0.0;
   double elevation_sd_rad = 0.0;  // 1-sigma, from the surface and the refraction
-  double distance_m = 0.0;        // of the crest, in the nearer of the two neighbouring columns
+  double distance_m = 0.0;        // distance of the crest, in the nearer of the two neighbouring
+                                  // columns
 };
 
 // Where a line of sight first meets the land.
 struct GroundHit {
   double range_m = 0.0;
   double elevation_sd_rad = 0.0;  // 1-sigma of the land there
-  // The growth of the land's elevation with range there [rad/m]; 0 on a crest. The 1-sigma of the
-  // range is the combined 1-sigma of both elevations (land and sight) divided by this.
+  // How fast the land's elevation grows with range there [rad/m]; 0 on a crest. The 1-sigma of the
+  // range is the combined 1-sigma of the elevations of land and line of sight, divided by this.
   double rise_rad_per_m = 0.0;
 };
 
 class HorizonMap {
  public:
   // `camera`: the camera's centre. Throws std::invalid_argument if the ground at the camera is
-  // unknown, or is above the camera by more than three sigmas of the surface.
+  // unknown, or if it is above the camera by more than three of its sigmas.
   HorizonMap(const Surface& surface, const Geodetic& camera, const HorizonMapConfig& config = {});
 
   // nullopt if the land in that direction is unknown.
   std::optional<Skyline> skyline(double azimuth_rad) const;
-  // nullopt if the sight passes above the skyline.
+  // Where the line of sight meets the land. nullopt if it passes above the skyline, or if the land
+  // in that direction is unknown.
   std::optional<GroundHit> ground(const AzimuthElevation& sight) const;
   // Like skyline(), but only for land nearer than `distance_m`.
   std::optional<Skyline> highest_before(double azimuth_rad, double distance_m) const;
-  // The probability that the land does not hide a point. `covariance_ecef` [m^2] is that of the
-  // point; the land's sigma is added. Unknown land hides nothing.
+  // The probability that the land does not hide a point. `covariance_ecef` [m^2] is the point's
+  // covariance; the land's own error is taken into account as well. Unknown land hides nothing.
   double visible_probability(const Eigen::Vector3d& p_ecef,
                              const Eigen::Matrix3d& covariance_ecef) const;
 
-  // The horizontal distance at which the surface has a gap or ends [m]; reach_m if it has neither.
+  // The horizontal distance [m] at which the surface has its first gap or ends; reach_m if it has
+  // no gap; 0 outside the sector.
   double known_to_m(double azimuth_rad) const;
-  // The amount by which the surface was lowered at the camera [m]. It is lowered if the camera
-  // would be less than kLeastAboveGround_m above the ground, and the surface's error can explain
-  // this.
+  // The amount by which the surface was lowered at the camera [m]. The surface is lowered if the
+  // camera would otherwise be less than kLeastAboveGround_m above the ground, which an error of the
+  // surface or of the camera's height can cause.
   double lowered_m() const { return lowered_m_; }
   const Geodetic& camera() const { return frame_.origin(); }
   const HorizonMapConfig& config() const { return config_; }
@@ -94,7 +98,8 @@ class HorizonMap {
   LocalFrame frame_;
   HorizonMapConfig config_;
   double lowered_m_ = 0.0;
-  std::vector<Step> steps_;  // of all columns; within a column, elevation and distance both ascend
+  std::vector<Step> steps_;  // of all columns; within a column, neither elevation nor distance
+                             // descends
   std::vector<std::size_t> begins_;  // index into steps_ of each column's first step, then the end
   std::vector<float> known_to_m_;    // by column
 };

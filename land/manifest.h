@@ -1,4 +1,5 @@
-// The description in a folder of `ols-land import`: land.json and coverings.json (docs/land.md).
+// The two JSON files in a folder of `ols-land import`: land.json, the manifest, and coverings.json
+// (docs/land.md).
 #pragma once
 
 #include <cstdint>
@@ -12,9 +13,9 @@ namespace ols::land {
 
 struct Source {
   std::string file, kind;  // kind: "elevation", "buildings" or "woods"
-  std::string licence;     // as the user of `ols-land import` stated it
+  std::string licence;     // as the user of `ols-land import` stated it; for people
   std::string heights;     // the reference of the heights: a geoid's grid, "ellipsoid" or "ground"
-  double sd_m = 0.0;       // 1-sigma of a height, as stated
+  double sd_m = 0.0;       // 1-sigma of a height, as the user stated it
 };
 
 struct GridFile {  // little-endian floats, in the order of HeightGrid
@@ -30,7 +31,7 @@ struct Manifest {
   std::vector<Source> sources;
   std::vector<GridFile> grids;
   std::string coverings_sha256;
-  std::vector<std::string> notes;  // what the import found, for people
+  std::vector<std::string> notes;  // remarks of the import, for people
 };
 
 inline constexpr int kFormatVersion = 1;

@@ -1,14 +1,15 @@
-// The bending of a line of sight by the air over land.
+// Terrestrial refraction: how the air bends a line of sight over land.
 #pragma once
 
 namespace ols::land {
 
 // Light bends towards the earth: over a distance d it falls below the straight line by refraction_k
-// d^2 / 2 R. (The earth's surface falls by d^2 / 2 R.) Over land in daylight refraction_k is about
-// 0.13, with a 1-sigma of 0.1. At 6 km, this 1-sigma is 0.3 m.
+// d^2 / 2 R, where R is the radius of the earth. (The earth's surface falls below it by d^2 / 2 R.)
+// Over land in daylight, refraction_k is about 0.13, with a 1-sigma of 0.1; at 6 km, this 1-sigma
+// is 0.3 m of height.
 inline constexpr double kRefraction = 0.13, kRefractionSd = 0.1;
 
-// The amount that refraction adds to the tangent of an elevation.
+// The amount that refraction adds to the tangent of an elevation, for a point at this distance.
 inline double refraction_slope(double refraction_k, double distance_m) {
   constexpr double kEarth_m = 6'371'000.0;
   return refraction_k * distance_m / (2.0 * kEarth_m);

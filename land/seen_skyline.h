@@ -1,6 +1,7 @@
-// The skyline as a station's pictures show it, in addition to that of the map. Pure.
+// The seen skyline: the skyline as a station's own pictures show it, in addition to the skyline of
+// the horizon map. Pure.
 //
-// Angles are apparent, in the east-north-up frame at the camera, as in land/horizon_map.h.
+// Elevations are apparent, in the east-north-up frame at the camera, as in land/horizon_map.h.
 #pragma once
 
 #include <array>
@@ -14,14 +15,15 @@
 
 namespace ols::land {
 
-// One azimuth: map and pictures, combined according to their errors.
+// The skyline at one azimuth, from map and pictures, combined according to their errors.
 struct SeenCrest {
   double elevation_rad = 0.0;
   double sd_rad = 0.0;  // 1-sigma
-  // Everything at this horizontal distance or beyond is hidden. 0: the pictures do not change what
-  // the map hides.
+  // Below the elevation, everything at this horizontal distance or beyond is hidden. 0: the
+  // pictures do not change what the map hides.
   double hides_from_m = 0.0;
-  // Pictures and map differ by more than their errors. Then the elevation is that of the pictures.
+  // Whether pictures and map differ by more than their errors. If so, the elevation is that of the
+  // pictures.
   bool disagrees = false;
 
   bool operator==(const SeenCrest&) const = default;
@@ -29,7 +31,7 @@ struct SeenCrest {
 
 class SeenSkyline {
  public:
-  static constexpr int kColumns = 7200;  // of 0.05 degrees
+  static constexpr int kColumns = 7200;  // each 0.05 degrees wide
   static constexpr int kSectors = 72;    // each with the same number of columns
   static constexpr int kSectorColumns = kColumns / kSectors;
 
@@ -45,21 +47,23 @@ class SeenSkyline {
   void remove(int column);
   // Replaces all columns of a sector; columns of other sectors are ignored.
   void set_sector(int sector, std::span<const Column> columns);
-  // In the order of their azimuths.
+  // The columns of a sector that have been seen, in the order of their azimuths.
   std::vector<Column> sector(int sector) const;
   bool empty() const { return count_ == 0; }
   int count() const { return count_; }
 
-  // The nearest column that has been seen, within 0.1 degrees. nullopt if there is none.
+  // The skyline in the nearest column that has been seen, if one is within 0.1 degrees; otherwise
+  // nullopt.
   std::optional<SeenCrest> at(double azimuth_rad) const;
-  // The elevation below which a point at `distance_m` is hidden. `model`: that of the map up to
-  // this distance. If only a column beside the azimuth has been seen, it can only raise this
-  // elevation, because the edge of a house may stand between that column and the azimuth.
+  // The elevation below which a point at `distance_m` is hidden. `model`: the same according to the
+  // map, HorizonMap::highest_before(). If the azimuth's own column has not been seen, a
+  // neighbouring column can raise this elevation but not lower it, because the edge of a house may
+  // be between them.
   Skyline hiding(const Skyline& model, double azimuth_rad, double distance_m) const;
 
  private:
   int count_ = 0;
-  // Empty, or one for each column.
+  // Empty, or one element for each column.
   std::vector<std::optional<SeenCrest>> crests_;
 };
 

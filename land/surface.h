@@ -10,8 +10,8 @@ struct SurfaceHeight {
   double sd_m = 0.0;      // 1-sigma of height_m
 };
 
-// The height of the land at a place. Implementations do not change after construction, so any
-// thread may call them.
+// The height of the land at a place. A surface does not change after its construction; any thread
+// may call it.
 class Surface {
  public:
   virtual ~Surface() = default;

@@ -1,4 +1,4 @@
-// The land according to elevation models, buildings and woods.
+// The surface of the land, from elevation models, buildings and woods.
 #pragma once
 
 #include <memory>
@@ -14,20 +14,20 @@ namespace ols::land {
 // Heights at the nodes of a grid of latitude and longitude.
 struct HeightGrid {
   double north_rad = 0.0, west_rad = 0.0;  // position of the first height
-  // Both positive: towards south and east.
+  // Both positive: rows go south, columns go east.
   double step_latitude_rad = 0.0, step_longitude_rad = 0.0;
   int rows = 0, columns = 0;  // at least 2 each
   double sd_m = 0.0;          // 1-sigma of a height
-  // Row by row from the north, each from the west [m, above the WGS84 ellipsoid]; NaN: unknown.
+  // [m, above the WGS84 ellipsoid] Row by row from the north, each row from the west; NaN: unknown.
   std::span<const float> heights_m;
 };
 
-// Heights are interpolated bilinearly within a grid, if all four neighbouring heights are known.
-// If several grids know a place, the first one counts. A building's roof is level; tree-tops follow
-// the ground.
+// Heights are interpolated bilinearly in a grid, if all four neighbouring heights are known. If
+// several grids know a place, the first of them is used. A building's roof is level; tree-tops
+// follow the ground.
 class Terrain : public Surface {
  public:
-  // `memory` owns the memory of the grids' heights.
+  // `memory` keeps the memory alive that the grids' `heights_m` refer to.
   Terrain(const std::vector<HeightGrid>& grids, std::vector<Covering> coverings,
           std::shared_ptr<const void> memory);
 
