@@ -1,5 +1,5 @@
-// Checks the values of a cue from outside: once when the cue is read, and again in the fusion when
-// it arrives over the bus. Pure.
+// Checks the values of a cue from outside. ols-cue does this when it reads a cue; the fusion does
+// it again when the cue arrives over the bus. Pure.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ struct CueValues {
 enum class CueFault {
   kNone,
   kNotFinite,
-  kOutOfRange,  // an impossible latitude, speed or deviation
+  kOutOfRange,  // an impossible latitude, speed or standard deviation
   kPole,        // east and north are undefined there
 };
 CueFault fault_of(const CueValues& cue);
 
-// The number of the target that an order names in place of a cue; nullopt if the order names a cue.
-// The name of a cue (INPUT.NAME) is never a number alone.
+// An order on a cue may name a target instead, by its number. Returns this number; nullopt if
+// `name` is the name of a cue (INPUT.NAME), which is never a mere number.
 std::optional<std::int64_t> target_named(const std::string& name);
 
 }  // namespace ols

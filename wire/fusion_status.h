@@ -1,4 +1,4 @@
-// Reads the fusion's status; all programs use this function.
+// Reads the fusion's status, for all programs.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace ols::wire {
 
-// Returns nullopt if the message is not a fusion's status. The texts in it are made safe for a
-// terminal.
+// Returns nullopt if the message is not a fusion's status. The status's texts are made safe for a
+// terminal (base/text/plain_text.h).
 std::optional<ols_msg::fusion_status_t> decode_fusion_status(const BusMessage& message);
 
 // "waiting", "searched", "found", "forbidden".

@@ -14,7 +14,7 @@ struct ObjectClassRow {
   const char* name;  // in configurations, files and messages
   ObjectClass object_class;
 };
-// In the order of their values.
+// In the order of the values of ObjectClass.
 inline constexpr std::array kObjectClasses{
     ObjectClassRow{"unknown", ObjectClass::kUnknown}, ObjectClassRow{"drone", ObjectClass::kDrone},
     ObjectClassRow{"bird", ObjectClass::kBird}, ObjectClassRow{"aircraft", ObjectClass::kAircraft},

@@ -10,20 +10,20 @@
 
 namespace ols::wire {
 
-// Reads an order from any sender; nullopt if the message is not an order, or not for the station of
-// its channel.
+// Reads an order from any sender. nullopt if the message is not an order, or does not name the
+// station of its channel.
 std::optional<Order> decode_order(const BusMessage& message);
 
-// nullopt if the message is not a reply, or not from the station of its channel. The texts in it
-// are made safe for a terminal (base/text/plain_text.h).
+// nullopt if the message is not a reply, or does not name the station of its channel. The reply's
+// texts are made safe for a terminal (base/text/plain_text.h).
 std::optional<Reply> decode_reply(const BusMessage& message);
 
-// Sends orders under one boot id.
+// Sends orders with one boot id.
 class OrderSender {
  public:
   explicit OrderSender(std::int64_t boot_id) : boot_id_(boot_id) {}
 
-  // An id for the next order.
+  // Returns a new id, for the next order.
   OrderId next_id() { return {boot_id_, ++sequence_}; }
   // `order.id` must be an id of this sender. `utime_us`: this host's UTC. False if the network is
   // down.

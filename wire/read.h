@@ -1,5 +1,6 @@
-// Reads a message of the bus. This file alone decides whether the bytes are a complete message of
-// this schema, on the channel of its own station. The callers judge the values.
+// Reads a message of the bus. Only this file decides whether the bytes are a complete message of
+// the known schema, on the channel of the station that the message names. Whether the values are
+// plausible is for the callers to judge.
 #pragma once
 
 #include <concepts>
@@ -16,8 +17,9 @@ namespace ols::wire {
 
 enum class Unread { kMalformed, kSchema, kOtherStation };
 
-// `channel` is either the prefix of a station's channel (kStatusChannel), to which the message's
-// own station is appended, or a channel of the site.
+// Reads a message that arrived on channel `on`. `channel`: the channel on which it must arrive; if
+// the message names a station, a prefix such as kStatusChannel, to which the station's name is
+// added.
 template <class Message>
 std::variant<Message, Unread> read(std::string_view channel, std::string_view on, const void* data,
                                    int bytes) {
@@ -35,7 +37,7 @@ std::variant<Message, Unread> read(std::string_view channel, std::string_view on
   return message;
 }
 
-// As above; nullopt if the message cannot be read.
+// As the function above; nullopt if the message cannot be read.
 template <class Message>
 std::optional<Message> read(std::string_view channel, const BusMessage& message) {
   // The channel is checked first, because most messages are on other channels, and decoding them

@@ -6,7 +6,7 @@
 
 namespace ols::wire {
 
-// For example "refused: that picture is too old; ..". `reply` must be a refusal.
+// Returns for example "refused: that picture is too old; ..". `reply` must be a refusal.
 Outcome refusal_in_words(const Reply& reply);
 
 }  // namespace ols::wire

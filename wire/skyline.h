@@ -1,4 +1,4 @@
-// Reads a sector of a station's seen skyline; all programs use this function.
+// Checks a sector of a station's seen skyline, for all programs.
 #pragma once
 
 #include "ols_msg/skyline_t.hpp"
@@ -7,8 +7,8 @@ namespace ols::wire {
 
 inline constexpr int kSkylineSectors = 72, kSkylineSectorColumns = 100;
 
-// Whether the values are possible: no more columns than a sector has, each of this sector, in
-// ascending order and with plausible numbers.
+// Whether the values are possible: no more columns than a sector has, all of this sector, in
+// ascending order, with plausible numbers.
 bool is_skyline(const ols_msg::skyline_t& message);
 
 }  // namespace ols::wire

@@ -1,4 +1,4 @@
-// Reads a station's status; all programs use these functions.
+// Reads a station's status, for all programs.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,27 @@
 
 namespace ols::wire {
 
-// Limits the memory that forged statuses with invented names can use.
+// The most stations that a program keeps. Limits the memory that forged statuses with invented
+// names can use.
 inline constexpr std::size_t kMostStationsHeard = 2000;
 
-// Returns nullopt if the message is not a status, or not from the station of its channel. The texts
-// in it are made safe for a terminal (base/text/plain_text.h).
+// Returns nullopt if the message is not a status, or does not name the station of its channel. The
+// status's texts are made safe for a terminal (base/text/plain_text.h).
 std::optional<ols_msg::station_status_t> decode_status(const BusMessage& message);
 
 // The value of a counter in a status; 0 if it is missing.
 double counter(const ols_msg::station_status_t& status, const std::string& name);
 
 const char* state_name(std::int8_t state);
-// Whether the state (station_status_t::STATE_*) is a stop, by a person or by the emergency stop.
+// Whether the state (station_status_t::STATE_*) means stopped, by a person or by the emergency
+// stop.
 bool is_stopped(std::int8_t state);
 const char* device_name(std::int8_t device);
-// The state of a device by its name; "-" when the station has no such device.
+// The state of the device with this name; "-" if the station has no such device.
 const char* device_state(const ols_msg::station_status_t& status, const std::string& name);
 // The version of the station's program, cut to one line; "-" if the status does not state it.
 std::string software(const ols_msg::station_status_t& status);
-// Where a pose comes from: "surveyed", "sensor", "unknown".
+// Where the pose comes from: "surveyed", "sensor", "unknown".
 const char* source_name(std::int8_t source);
 // "synchronised", "unsynchronised", "unknown".
 const char* clock_name(std::int8_t state);

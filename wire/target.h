@@ -1,4 +1,4 @@
-// Reads a target; all programs use these functions.
+// Reads a target, for all programs.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,16 +11,17 @@
 
 namespace ols::wire {
 
-// A target of the site's estimator; nullopt if the message is not one. The texts in it are made
-// safe for a terminal.
+// nullopt if the message is not a target of the site's fusion. The target's texts are made safe for
+// a terminal (base/text/plain_text.h).
 std::optional<ols_msg::target_t> decode_target(const BusMessage& message);
 
-// Whether the target is an object with a position on or near the earth.
+// Whether the message states the position of an object, and the position is on or near the earth.
 bool has_position(const ols_msg::target_t& target);
-// The velocity [m/s]: east, north, up at the target; NaN if it is not estimated.
+// The velocity [m/s] in east, north, up at the target; NaN if it is not estimated.
 Eigen::Vector3d velocity_enu(const ols_msg::target_t& target);
 
-// Whether latitude, longitude [deg, WGS84] and height [m] are a place that can be drawn.
+// Whether latitude, longitude [deg, WGS84] and height [m] are finite and in a range that can be
+// drawn.
 bool is_place(double latitude_deg, double longitude_deg, double height_m);
 
 // "tentative", "confirmed", "coasted", "dropped".
