@@ -1,5 +1,5 @@
-// An alarm: a row of conditions.toml and the values of its parameters. conditions/alarms.h raises
-// them. Pure.
+// An alarm: a row of conditions.toml, with values for the row's parameters. The functions of
+// conditions/alarms.h make alarms. Pure.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,12 @@
 
 namespace ols {
 
-// A row of the table, with its sentence.
+// A row of conditions.toml.
 struct AlarmRow {
   std::string_view id;
   std::string_view english;   // "ptu: supply voltage low ({volts} V)"
-  std::string_view subject;   // " station axis ": the parameters that are part of the key
+  std::string_view subject;   // names of the parameters that are part of the key, as " station axis
+                              // "
   std::string_view severity;  // "urgent", "warning", "notice"
   std::string_view action;    // what a person should do
 };
@@ -25,37 +26,38 @@ struct Alarm {
   using Parameters = std::vector<std::pair<std::string, std::string>>;  // name, value
 
   std::string text{};  // the sentence in English
-  std::string id{};    // of its row; empty in old logs, whose messages had no ids
+  std::string id{};    // id of its row; empty in old logs, whose messages had no ids
   Parameters parameters{};
 
-  bool empty() const { return text.empty(); }  // whether there is no alarm
+  bool empty() const { return text.empty(); }  // true: there is no alarm
   operator const std::string&() const { return text; }
   bool operator==(const Alarm&) const = default;
   friend bool operator==(const Alarm& alarm, std::string_view text) { return alarm.text == text; }
 
-  // The same alarm with the words of a device or library: they are appended to the sentence, and
-  // become the parameter "detail".
+  // The same alarm with the message of a device or library, which is appended to the sentence and
+  // becomes the parameter "detail".
   Alarm with_detail(const std::string& detail) const;
-  // A key that stays the same while the alarm holds: the id and the subject's parameters
-  // ("station_silent s1"). Other parameters may change meanwhile. Without an id: the sentence.
+  // A key that stays the same while the alarm is active: the id and the values of the subject's
+  // parameters ("station_silent s1"). Other parameters may change meanwhile. Without an id: the
+  // sentence.
   std::string key() const;
-  // The sentence with the values of the subject's parameters; all other parameters appear as "…".
+  // The sentence, in which only the subject's parameters have values; all others appear as "…".
   std::string gist() const;
-  // The sentence, split at the first colon of the table's sentence. part() is what stands before it
-  // and says what the alarm is about ("ptu"); reason() is the rest. Without an id, part() is empty
-  // and reason() is the whole sentence.
+  // The sentence in two parts, split at the first colon of the row's sentence. part() is the text
+  // before the colon, which says what the alarm is about ("ptu"); reason() is the rest. Without an
+  // id, part() is empty and reason() is the whole sentence.
   std::string part() const;
   std::string reason() const;
   // The value of a parameter; empty: the alarm has no parameter of this name.
   std::string parameter(std::string_view name) const;
-  // The row, with severity and action. Without an id: a warning that refers to
-  // docs/troubleshooting.md.
+  // The alarm's row, with severity and action. Without an id: a row with severity "warning" and an
+  // action that refers to docs/troubleshooting.md.
   const AlarmRow& row() const;
 };
 
-// Makes the alarm of the row `id`, which must be in the table.
+// Makes the alarm with this row. The id must be in the table.
 Alarm raise(std::string_view id, Alarm::Parameters parameters);
-// Makes alarms without ids.
+// Makes alarms from sentences alone, without ids.
 std::vector<Alarm> alarms_of(const std::vector<std::string>& sentences);
 
 // Writes alarms into a status: station_status_t or fusion_status_t.

@@ -1,4 +1,4 @@
-// An alarm in a program's status file: {"text", "id", "parameters": {name: value}}. Pure.
+// An alarm as JSON, for a program's status file: {"text", "id", "parameters": {name: value}}. Pure.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// The table of alarms, as compiled in. Pure.
+// The alarms of conditions.toml, compiled into the program. Pure.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Text with numbers in it, by a format of printf. Pure.
+// Makes a text with printf's format. Pure.
 #pragma once
 
 #include <cstdarg>
@@ -7,7 +7,7 @@
 
 namespace ols {
 
-// At most 999 bytes.
+// The text is cut after 999 bytes.
 [[gnu::format(printf, 1, 2)]] inline std::string printed(const char* format, ...) {
   char text[1000];
   std::va_list values;

@@ -1,4 +1,4 @@
-// Says in words for a person why something was refused. Pure.
+// Explains to a person, in words, why something was refused. Pure.
 #pragma once
 
 #include <string>
@@ -8,15 +8,16 @@
 
 namespace ols {
 
-// Why an order is not carried out: a row of the table's outcomes with its parameters, like an
-// alarm. conditions/sayings.h makes them. Empty: the order is carried out.
+// The outcome of an order. Empty: the order is carried out. Otherwise the reason why not: like an
+// alarm, an outcome is a row of conditions.toml with values for its parameters. The functions of
+// conditions/sayings.h make outcomes.
 using Outcome = Alarm;
 
-// The sentence of conditions.toml for a reason that programs count ("no_frame"); empty: the reason
-// has no sentence.
+// Programs count refusals by reason ("no_frame"). Returns the sentence of conditions.toml for a
+// reason; empty: the reason has no sentence.
 std::string_view refusal_sentence(std::string_view reason);
-// The same, but the reason itself if it has no sentence. `of`: a prefix that tells reasons of the
-// same name apart ("bridge_").
+// As refusal_sentence(), but returns the reason itself if it has no sentence. `of`: a prefix of the
+// reason, such as "bridge_", for programs whose reasons have the same names as others.
 std::string refusal_words(const std::string& reason, const std::string& of = {});
 // "SLEW refused: it came too late; ...".
 std::string refused_in_words(const std::string& what, const std::string& reason);
