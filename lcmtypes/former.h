@@ -1,4 +1,4 @@
-// How a message is decoded from the bytes of a frozen one that it has grown from
+// Decodes a message type from the bytes of an earlier version of it, which had fewer fields
 // (lcmtypes/README.md). For the generated bindings only. Pure.
 #pragma once
 
@@ -7,13 +7,14 @@
 
 namespace ols_lcm {
 
-// As Message::decode(), whose first `pos` bytes, the fingerprint, are those of Former. The fields
-// that Former lacks are zero, or empty.
+// As Message::decode(), for bytes of the earlier version Former. The first `pos` bytes are the
+// fingerprint of Former, which the caller has checked. Fields that Former lacks become zero or
+// empty.
 template <class Former, class Message>
 int decode_former(Message& message, const void* buf, int offset, int maxlen, int pos) {
   const int length = Former{}._decodeNoHash(buf, offset + pos, maxlen - pos);
   if (length < 0) return length;
-  // Fields are only ever appended, so Former's bytes are the first of Message's.
+  // Fields are only ever appended. Former's bytes are therefore the beginning of Message's bytes.
   const Message unknown{};
   std::vector<std::uint8_t> rest(static_cast<std::size_t>(unknown._getEncodedSizeNoHash()));
   unknown._encodeNoHash(rest.data(), 0, static_cast<int>(rest.size()));
