@@ -1,4 +1,5 @@
-// The waiting time before the next attempt to reach a receiver. It grows with each failure. Pure.
+// How long to wait before the next attempt to reach a receiver. The time grows with each failure.
+// Pure.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,7 @@ namespace ols::exports {
 
 class BackOff {
  public:
-  // [s] 0.25, 0.5, 1, 2, 2, ...
+  // Returns the time to wait [s]: 0.25, 0.5, 1, 2, 2, ...
   double after_failure() {
     const double wait_s = next_s_;
     next_s_ = std::min(2.0 * next_s_, kLongest_s);

@@ -1,5 +1,5 @@
-// One format: records in, bytes out. Encoders use no clock, file or socket, and remember only
-// records that they received.
+// An encoder writes records in one format: records come in, packets of bytes go out. Encoders use
+// no clock, file or socket, and remember only records that they have received.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace ols::exports {
 
-// One datagram, message of a stream, MQTT message or file.
+// One datagram, one message of a stream, one MQTT message or one file.
 struct Packet {
-  std::string subject;  // a newer packet replaces a waiting one with the same subject; empty: it
+  std::string subject;  // a newer packet replaces a waiting packet of the same subject; empty: it
                         // replaces none
   std::string bytes{};
   std::string where{};       // an MQTT topic, or the suffix of a file's name
-  bool is_retained = false;  // MQTT
+  bool is_retained = false;  // MQTT: the broker keeps the message for later subscribers
 };
 using Packets = std::vector<Packet>;
 
@@ -28,18 +28,19 @@ class Encoder {
   virtual Packets encode(const Target& target) = 0;
   virtual Packets encode(const Station& station) = 0;
   virtual Packets encode(const Line& line) = 0;
-  // Returns nothing if the format has no place for incidents.
+  // Returns no packets if the format has no place for incidents.
   virtual Packets encode_incident(const Incident& incident) {
     static_cast<void>(incident);
     return {};
   }
-  // The packets that the format sends without a record, such as a document or a service status.
-  // Call about once a second, or as often as a file is written. `utime_us`: now.
+  // The packets that do not belong to a single record, such as a document or a service status. Call
+  // about once a second, or as often as a file shall be written. `utime_us`: now.
   virtual Packets due(std::int64_t utime_us) {
     static_cast<void>(utime_us);
     return {};
   }
-  // The receiver is new or has forgotten everything: what is sent only once must be sent again.
+  // Call when the receiver is new or may have forgotten everything. The encoder then sends again
+  // what it sends only once.
   virtual void begin_again() {}
 };
 

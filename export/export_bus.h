@@ -1,4 +1,4 @@
-// ols-export on the bus: it only listens.
+// The connection of ols-export to the bus, which only receives.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace ols::exports {
 
-inline constexpr const char* kMemberName = "export";  // in the site's trust list
+inline constexpr const char* kMemberName = "export";  // the name of ols-export in the site's trust
+                                                      // list
 
 class ExportBus : public BusClient {
  public:
-  // The handler receives targets, station statuses and bearings.
+  // The handler receives targets, station statuses, bearings and incidents.
   ExportBus(std::string url, const trust::TrustConfig& trust, const BusInbox::Handler& handler);
 };
 

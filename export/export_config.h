@@ -36,39 +36,40 @@ struct OutputConfig {
   std::string to;  // parse_address()
   GateConfig gate;
   std::string ca, certificate, key;  // PEM files
-  std::string user, password_file;   // of an MQTT broker
+  std::string user, password_file;   // login at an MQTT broker
 };
 
 struct ExportConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string site = "ols";
   std::string geoid = "egm96_15.gtx";
-  bool has_own_geoid = false;  // the file states a geoid; otherwise the site's settings may
+  bool has_own_geoid = false;  // whether the file states the geoid; if not, the site's settings may
+                               // state it
   std::string status_file;
   double max_age_s = 5.0;
-  double history_min = 10.0;  // of tracks in a file [min]
+  double history_min = 10.0;  // length of the tracks in a file [min]
   std::deque<OutputConfig>
       outputs;  // a deque, because the configuration's table refers to its elements
   CotSettings cot;
   MqttSettings mqtt;
   AsterixSettings asterix;
   CourageousSettings courageous;
-  SapientSettings sapient;  // without the site, which is above
+  SapientSettings sapient;  // its field `site` is not used; the site is above
   trust::TrustConfig trust;
 };
 
 config::Section export_section(ExportConfig& config);  // the whole file
-// For a new output: a table of the array.
+// Adds an output, and returns the section of its table [[output]].
 config::Section output_section(ExportConfig& config);
 // Throws ConfigError.
 ExportConfig load_export_config(const std::string& path);
-// The same from text. Errors give `name` instead of the path.
+// Parses a text instead of a file. Errors show `name` instead of the path.
 ExportConfig parse_export_config(const std::string& text, const std::string& name);
 
-// Whether the format's heights are above sea level, so that it needs a geoid.
+// Whether the format needs a geoid, because its heights are above sea level.
 bool needs_geoid(Format format);
 const char* to_string(Format format);
-// From its name on a command line. Throws std::invalid_argument.
+// The format with this name, for a command line. Throws std::invalid_argument for an unknown name.
 Format format_from(const std::string& name);
 
 }  // namespace ols::exports

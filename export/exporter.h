@@ -1,4 +1,4 @@
-// Passes all records from the bus, or from a recording, to every output. Counts unused messages.
+// Passes every record from the bus to every output, and counts messages that are not used.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,17 @@ namespace ols::exports {
 
 class Exporter {
  public:
-  // max_age_s: a record whose time differs from the present by more than this is not sent.
+  // max_age_s: records whose time differs from now by more than this are not passed on.
   Exporter(SiteContext site, std::vector<std::unique_ptr<Output>> outputs, double max_age_s);
 
   void receive(const BusMessage& message, std::int64_t now_utime_us);
-  // Ends silent targets, and writes files. `now_s`: monotonic.
+  // Ends silent targets, and lets each output send what is due, such as a file. `now_s`: monotonic;
+  // `utime_us`: UTC.
   void step(double now_s, std::int64_t utime_us);
 
   const std::vector<std::unique_ptr<Output>>& outputs() const { return outputs_; }
-  // records_sent_on, messages_refused, messages_unused (for example without a position),
-  // records_old.
+  // The counters: records_sent_on, messages_refused, messages_unused (for example targets without a
+  // position), records_old.
   const std::map<std::string, double>& counters() const { return counters_; }
   std::size_t targets() const { return targets_.size(); }
 

@@ -13,7 +13,8 @@ namespace ols::exports {
 
 std::unique_ptr<Output> make_output(const OutputConfig& output, const ExportConfig& config);
 
-// Makes the encoder for a file of a whole recording: with unlimited history and no companion files.
+// Makes the encoder for a file of a whole recording: its history is unlimited, and it writes no
+// companion files.
 std::unique_ptr<Encoder> make_file_encoder(Format format, const ExportConfig& config);
 
 }  // namespace ols::exports

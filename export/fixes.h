@@ -1,4 +1,4 @@
-// Reads positions that ols-fuse has written, as targets.
+// Reads the positions in a CSV file of ols-fuse, as targets.
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace ols::exports {
 
-// Columns as in tools/offline/fix_writer.h; standard deviations may be missing. Covariances between
-// axes are not in the file and are taken as 0. Throws CsvError (FILE:LINE: COLUMN: what).
+// The columns are those of tools/offline/fix_writer.h; those of standard deviations may be missing.
+// The file has no covariances between axes; they are taken as 0. Throws CsvError (FILE:LINE:
+// COLUMN: what is wrong).
 std::vector<Target> read_fixes(const std::string& path, const SiteContext& site);
 
 }  // namespace ols::exports

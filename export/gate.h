@@ -1,4 +1,4 @@
-// Decides which records go to one output: kinds, area, and rate. Pure.
+// Decides which records go to one output, by kind, area and rate. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,13 @@ namespace ols::exports {
 struct GateConfig {
   bool targets = true, stations = true, lines = false;
   bool tentative = false;  // whether tentative targets pass too
-  double rate_hz = 2.0;    // max rate of each object
+  double rate_hz = 2.0;    // highest rate of records of one object
   Area area_deg{-90, -180, 90, 180};
 };
 
-// Records that come too early are dropped, not delayed, so that all output is recent. A change of a
-// target's state passes at once. A target that leaves the area ends there.
+// Records that come too early for the rate are dropped, not delayed, so that all output is recent.
+// A change of a target's state passes at once. A target that leaves the area ends at its last place
+// inside.
 class Gate {
  public:
   explicit Gate(const GateConfig& config) : config_(config) {}
@@ -27,10 +28,10 @@ class Gate {
   std::optional<Target> pass(const Target& target);
   bool passes(const Station& station);
   bool passes(const Line& line);
-  // Incidents are few, and pass at any rate.
+  // The rate does not apply to incidents, because there are few.
   bool passes(const Incident& incident) const;
 
-  // Min belief of a line; the fusion has the same limit for bearings.
+  // The least belief with which a line of sight passes; the fusion has the same limit for bearings.
   static constexpr double kLeastBelief = 0.5;
 
  private:

@@ -1,5 +1,5 @@
-// Converts messages of the bus to records. The only decision made here is whether a message is
-// valid. Never throws, whatever the bytes.
+// Converts messages of the bus to records. Decides only whether a message is valid. Never throws,
+// whatever the bytes are.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace ols::exports {
 
-// The site's data that complete a message.
+// Data of the site that a record needs in addition to its message.
 struct SiteContext {
   std::string site;
   // Height of the geoid above the ellipsoid [m] at a latitude and longitude [deg]; by default
@@ -21,15 +21,17 @@ struct SiteContext {
 
 enum class MessageKind { kTarget, kStation, kLine };
 
-// A target with a position, or one that has ended: its place is then unknown (not finite).
+// Each returns nullopt if the message is another one or cannot be used. A target is used if it has
+// a position or has ended; the place of an ended target is unknown (not finite).
 std::optional<Target> target_from(const BusMessage& message, const SiteContext& site);
 std::optional<Station> station_from(const BusMessage& message, const SiteContext& site);
 std::optional<Line> line_from(const BusMessage& message, const SiteContext& site);
 std::optional<Incident> incident_from(const BusMessage& message, const SiteContext& site);
 
-// Whether the message matches its channel and schema. Other messages are refused and counted.
+// Whether the message is complete, and of the kind and schema that its channel has. Other messages
+// are refused and counted.
 bool is_understood(const BusMessage& message);
-// Whether messages of this channel are read here.
+// Whether messages of this channel are converted to records.
 bool is_read(const std::string& channel);
 
 }  // namespace ols::exports

@@ -1,4 +1,5 @@
-// One output: records that pass its gate go through its encoder to its outlet.
+// One output: a gate selects records, an encoder turns them into packets, and an outlet sends the
+// packets.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ class Output {
   void take(const Station& station);
   void take(const Line& line);
   void take(const Incident& incident);
-  // `now_s`: monotonic; `utime_us`: UTC.
+  // Call often: sends what is due without a record. `now_s`: monotonic; `utime_us`: UTC.
   void step(double now_s, std::int64_t utime_us);
 
   const std::string& name() const { return name_; }

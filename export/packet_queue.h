@@ -1,5 +1,5 @@
-// The packets that wait for a receiver. Their number is limited; newer packets replace older ones.
-// Pure.
+// The packets that wait for a receiver. Their number is limited; a newer packet replaces an older
+// one of the same subject. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ class PacketQueue {
  public:
   explicit PacketQueue(std::size_t most = 1000) : most_(most) {}
 
-  // Replaces a waiting packet with the same subject; otherwise adds the packet at the end. If there
-  // are too many, the oldest is dropped.
+  // Replaces a waiting packet of the same subject; if there is none, adds the packet at the end. If
+  // there are then too many, drops the oldest.
   void put(Packet packet);
   std::optional<Packet> take();
   void clear();
@@ -32,7 +32,8 @@ class PacketQueue {
   std::size_t most_;
   std::deque<Packet> waiting_;
   std::uint64_t taken_ = 0;                                // number of the first waiting packet
-  std::unordered_map<std::string, std::uint64_t> number_;  // by subject, of the waiting packets
+  std::unordered_map<std::string, std::uint64_t> number_;  // by subject: number of the waiting
+                                                           // packet
   std::uint64_t displaced_ = 0;
 };
 

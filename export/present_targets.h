@@ -1,6 +1,6 @@
-// The present targets. Reports the end of each once, with its last position. The end is also
-// reported if the fusion has stopped before reporting it, or has reported it without a position.
-// Pure.
+// The present targets. Makes sure that each target's end is exported exactly once, with the
+// target's last position: also if the fusion stops without reporting the end, or reports it without
+// a position. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,17 @@ namespace ols::exports {
 
 class PresentTargets {
  public:
-  // The records to export; empty for the end of a target that was never present.
+  // Takes a record, and returns the records to export. Returns none for an older record, and for
+  // the end of a target that is not present.
   std::vector<Target> take(const Target& target);
-  // The ends of targets that were silent for kSilent_s. `utime_us`: now, in the time of the
-  // records.
+  // Ends the targets that were silent for kSilent_s, and returns their ends. `utime_us`: now, by
+  // the clock of the records.
   std::vector<Target> end_silent(std::int64_t utime_us);
   std::size_t size() const { return live_.size(); }
 
   static constexpr double kSilent_s = 10.0;
-  // A limit against forged messages with invented numbers; beyond it, the oldest targets are ended.
+  // Most present targets, against forged messages with invented numbers. Beyond this limit, the
+  // oldest target is ended.
   static constexpr std::size_t kMost = 2000;
 
  private:

@@ -1,4 +1,5 @@
-// Whether the outputs of a configuration can work on this computer: their files and the geoid.
+// Checks whether the outputs of a configuration can work on this computer: whether their files and
+// the geoid can be read.
 #pragma once
 
 #include <vector>
@@ -8,8 +9,8 @@
 
 namespace ols::exports {
 
-// The site with its geoid, or without one if none is installed and no format needs it. Throws
-// std::invalid_argument that names the format and what to do.
+// The site with its geoid. If the geoid is not installed and no format needs it, the site has none.
+// If a format needs it, throws std::invalid_argument that names the format and what to do.
 SiteContext site_context(const ExportConfig& config, const std::vector<Format>& formats);
 std::vector<Format> formats_of(const ExportConfig& config);
 

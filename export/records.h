@@ -1,5 +1,6 @@
-// Records for export, independent of the format. Angles in degrees, as in every format. Heights
-// above the WGS84 ellipsoid, with the geoid's height there for formats that use sea level.
+// Records for export, independent of the format. Angles are in degrees, as in every format. Heights
+// are above the WGS84 ellipsoid; each place also has the geoid's height, for formats with heights
+// above sea level.
 #pragma once
 
 #include <array>
@@ -23,11 +24,11 @@ struct Place {
   double above_sea_m() const { return height_m - geoid_m; }
 };
 
-// Symmetric, in the place's own east, north, up: ee, en, eu, nn, nu, uu.
+// A symmetric matrix in east, north, up at the place: ee, en, eu, nn, nu, uu.
 using Covariance = std::array<double, 6>;
 
 using wire::ObjectClass;
-// The values are those of target_t.
+// The values are those of target_t's TRACK_*.
 enum class TrackState { kTentative, kConfirmed, kCoasted, kEnded };
 
 struct Target {
@@ -35,18 +36,20 @@ struct Target {
   std::string uid;      // the same in all formats; identity.h
   std::int64_t id = 0;  // the fusion's number
   TrackState state = TrackState::kConfirmed;
-  Place place;  // the last place, if it has ended
+  Place place;  // the last place, if the target has ended
   Covariance covariance_m2{};
   std::array<double, 3> velocity_enu_m_s{};  // unknown if not estimated
   Covariance velocity_covariance_m2_s2{};
-  std::vector<std::string> stations;  // whose bearings are used
+  std::vector<std::string> stations;  // stations whose bearings are used
   ObjectClass object_class = ObjectClass::kUnknown;
-  double class_probability = kUnknown;             // 0..1 of this class
+  double class_probability = kUnknown;             // probability of object_class, 0..1
   double size_m = kUnknown, size_sd_m = kUnknown;  // largest extent, and its 1-sigma
-  double above_ground_m = kUnknown, above_ground_sd_m = kUnknown;  // height, and its 1-sigma
+  // height above the ground, and its 1-sigma
+  double above_ground_m = kUnknown, above_ground_sd_m = kUnknown;
 };
 
-// In the order of the bus's numbers; at the end, the word for an unknown number.
+// The words for station_status_t's STATE_*, in the order of their values; the last is for an
+// unknown value.
 inline constexpr std::array kStationStates{"idle",   "manual",  "tracking",  "coasting", "lost",
                                            "slewed", "stopped", "emergency", "hidden",   "unknown"};
 
@@ -56,16 +59,16 @@ struct Station {
   std::string name;
   Place place;
   std::array<double, 3> position_sd_m{};      // east, north, up
-  double azimuth_deg = kUnknown;              // of the optical axis, clockwise from true north
+  double azimuth_deg = kUnknown;              // of the optical axis; clockwise from true north
   double elevation_deg = kUnknown;            // above the horizon
   std::array<double, 2> field_of_view_deg{};  // horizontal, vertical; 0: unknown
-  std::string state;                          // of kStationStates
+  std::string state;                          // one of kStationStates
   bool is_well = true;                        // whether it has no alarm
   bool clock_is_good = true;
   std::size_t alarms = 0;
 };
 
-// The line on which a station sees the object that it follows.
+// The line of sight on which a station sees the object that it follows.
 struct Line {
   std::int64_t utime_us = 0;  // at mid-exposure
   std::string uid;
@@ -73,28 +76,29 @@ struct Line {
   Place camera;
   double azimuth_deg = 0.0;
   double elevation_deg = 0.0;
-  // 1-sigma across the line, horizontally: that of the azimuth times the cosine of the elevation.
+  // 1-sigma across the line of sight, horizontally: the azimuth's 1-sigma times the cosine of the
+  // elevation.
   double cross_sd_deg = 0.0;
   double elevation_sd_deg = 0.0;
   double belief = 1.0;        // 0..1
-  std::int64_t track_id = 0;  // grows with each designation
+  std::int64_t track_id = 0;  // a new, greater number with each designation
 };
 
 // A target in an area that is watched.
 struct Incident {
   std::int64_t utime_us = 0;
   std::string uid;
-  std::int64_t number = 0;  // given by the console that watches
+  std::int64_t number = 0;  // given by the console that watches the area
   std::string area;
   std::int64_t target_id = 0;
   std::string target_uid;
-  std::string object_class;             // "unknown", "drone"
-  double class_probability = kUnknown;  // 0..1 of this class
+  std::string object_class;             // a name of wire/object_class.h, such as "drone"
+  double class_probability = kUnknown;  // probability of object_class, 0..1
   std::int64_t begun_us = 0;
   std::int64_t ended_us = 0;          // 0: the target is still inside
-  Place place;                        // where it was last inside
-  std::string verdict, judged_by;     // "open", "confirmed", "dismissed"; a person
-  std::vector<std::string> stations;  // those that saw the target
+  Place place;                        // the target's last place inside the area
+  std::string verdict, judged_by;     // "open", "confirmed" or "dismissed", and who said so
+  std::vector<std::string> stations;  // stations that saw the target
 
   bool is_inside() const { return ended_us == 0; }
   bool is_alarm() const { return is_inside() && verdict != "dismissed"; }

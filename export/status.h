@@ -1,4 +1,4 @@
-// The state of the outputs, for people and for programs. Pure.
+// The state of ols-export and its outputs, for people and for programs. Pure.
 #pragma once
 
 #include <cstdint>

@@ -15,10 +15,12 @@ Ellipse ellipse_of(const Covariance& enu);
 // 1-sigma of one axis; unknown if the variance is negative or not finite.
 double sd(double variance);
 
-// A deviation rounded up to this many decimals: a text must not claim more accuracy than there is.
+// A standard deviation, rounded up to this many decimals, so that a text does not claim more
+// accuracy than there is.
 double rounded_up(double value, int decimals);
 
-// Horizontal speed and course of a velocity; unknown if the velocity is.
+// Horizontal speed, course (clockwise from north) and climb rate of a target; unknown if the
+// velocity is unknown.
 struct Motion {
   double speed_m_s = kUnknown, course_deg = kUnknown, climb_m_s = kUnknown;
 };

@@ -1,4 +1,4 @@
-// ASTERIX, one record per datagram. Pure.
+// Encodes targets, stations and lines of sight in ASTERIX, one record per datagram. Pure.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Track numbers: ASTERIX has 16 bits for them. Pure.
+// Gives targets the track numbers of ASTERIX, which have 16 bits. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@ namespace ols::exports {
 
 class TrackNumbers {
  public:
-  // The number of a present target: the fusion's own number or, if another present target has it,
-  // the next free one. So a target mostly keeps its number over a restart.
+  // The number of a present target: the fusion's own number for it or, if another present target
+  // has that, the next free number. A target therefore usually has the same number after a restart
+  // of ols-export.
   std::uint16_t of(const std::string& uid, std::int64_t target_id);
   void release(const std::string& uid);
 

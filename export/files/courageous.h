@@ -1,6 +1,6 @@
-// COURAGEOUS, the JSON by which counter-drone systems are compared (format 0.4.1, CWA 18150).
-// Targets become its tracks, stations' bearings its detections. Heights are above sea level. The
-// format has no fields for uncertainties. Pure.
+// COURAGEOUS (format 0.4.1, CWA 18150), a JSON format for comparing counter-drone systems. Targets
+// become tracks of the format, stations' bearings become detections. Heights are above sea level.
+// The format has no fields for uncertainties. Pure.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace ols::exports {
 
-// The system's place; if unknown, the place of one of its stations.
+// The place of the whole system; if unknown, the place of one station is written.
 struct CourageousSettings {
   double latitude_deg = kUnknown, longitude_deg = kUnknown, height_above_sea_m = kUnknown;
 
@@ -19,7 +19,8 @@ struct CourageousSettings {
   }
 };
 
-// Empty while no station is known and no place is configured: the format requires a place.
+// Writes the document. Empty while no station is known and no place is configured, because the
+// format requires a place.
 std::string courageous(const Picture& picture, const std::string& site,
                        const CourageousSettings& settings);
 

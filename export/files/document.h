@@ -1,4 +1,4 @@
-// A file that is rewritten at each turn, from all records so far. Pure.
+// An encoder for a file that is rewritten each time it is due, from all records so far. Pure.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,9 @@ namespace ols::exports {
 
 class DocumentEncoder : public Encoder {
  public:
-  // Writes the document of a picture; empty: there is nothing to write yet.
+  // Returns the text of the file with these contents; empty: there is nothing to write yet.
   using Writer = std::function<std::string(const Picture&)>;
-  // `where`: as Packet::where. `companions`: files beside it, sent once.
+  // `where`: as Packet::where. `companions`: further files beside this one, sent only once.
   DocumentEncoder(PictureLimits limits, Writer writer, std::string where = {},
                   Packets companions = {});
 

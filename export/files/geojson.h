@@ -1,4 +1,4 @@
-// GeoJSON (RFC 7946): heights above the WGS84 ellipsoid. Pure.
+// GeoJSON (RFC 7946), with heights above the WGS84 ellipsoid. Pure.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace ols::exports {
 
-// A point for each target with its track as a line, a point for each station, and a line of
-// `line_m` for a station's last bearing. Covariances are properties.
+// Writes a point for each target and a line for its track, a point for each station, and a line of
+// length `line_m` [m] for a station's last bearing. Covariances are properties.
 std::string geojson(const Picture& picture, double line_m);
 
 }  // namespace ols::exports

@@ -1,4 +1,4 @@
-// KML 2.2 for Google Earth and similar programs. Heights above sea level ("absolute"). Pure.
+// KML 2.2 for Google Earth and similar programs, with heights above sea level ("absolute"). Pure.
 #pragma once
 
 #include <string>
@@ -7,9 +7,11 @@
 
 namespace ols::exports {
 
-// Tracks in time (gx:Track), stations, and the lines of their last bearings.
+// Writes tracks with times (gx:Track), stations, and a line of length `line_m` [m] for each
+// station's last bearing.
 std::string kml(const Picture& picture, double line_m);
-// A document that shows the other file, and reads it again at this interval.
+// Writes a document that refers to another file; a viewer that opens it reads that file again at
+// this interval.
 std::string kml_link(const std::string& file, double interval_s);
 
 }  // namespace ols::exports

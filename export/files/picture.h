@@ -1,4 +1,5 @@
-// The contents of a file: tracks with their points, stations, and their lines of sight. Pure.
+// The contents of a file, independent of its format: tracks, stations, and stations' lines of
+// sight. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,10 @@ namespace ols::exports {
 
 struct PictureLimits {
   double history_s = std::numeric_limits<double>::infinity();
-  // Limit for all tracks and lines together. Beyond it, each is thinned evenly in time.
+  // Most points of all tracks and lines together. If there would be more, the points of each are
+  // spaced more widely in time.
   std::int64_t most_points = std::numeric_limits<std::int64_t>::max();
-  // Skips objects whose height above sea level is unknown: the format has no other height.
+  // Skips objects whose height above sea level is unknown, for formats that have no other height.
   bool needs_sea = false;
 };
 
@@ -34,8 +36,9 @@ class Picture {
   void take(const Target& target);
   void take(const Station& station);
   void take(const Line& line);
-  // Removes points older than the history, except the newest of a live object. Also removes tracks
-  // that ended before the history, and stations that were silent for five minutes. `utime_us`: now.
+  // Removes points older than the history, except an object's newest point while the object is
+  // alive. Also removes tracks that ended before the history, and stations that were silent for
+  // five minutes. `utime_us`: now.
   void forget(std::int64_t utime_us);
 
   bool is_empty() const { return tracks_.empty() && stations_.empty() && lines_.empty(); }
@@ -54,7 +57,7 @@ class Picture {
   std::map<std::string, SeenLines> lines_;
 };
 
-// The point on a line at this distance from its camera.
+// The point on a line of sight at this distance from the camera.
 Place end_of(const Line& line, double distance_m);
 
 }  // namespace ols::exports

@@ -1,4 +1,5 @@
-// Home Assistant's MQTT discovery: the messages that it needs once to show an entity. Pure.
+// Home Assistant's MQTT discovery: the messages by which Home Assistant learns of an entity. Each
+// is sent once per connection. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +13,10 @@ namespace ols::exports {
 // `prefix`: site_prefix().
 std::string slot_topic(const std::string& prefix, std::size_t slot);
 
-// A place on the map, with height, speed and state as sensors.
+// Announces a slot: a place on the map, with height, speed and state as sensors.
 Packets discover_slot(const MqttSettings& settings, const std::string& site, std::size_t slot);
-// State and direction as sensors, and whether the station has an alarm. `word`: the station's name
-// in topics.
+// Announces a station: state and direction as sensors, and whether the station has an alarm.
+// `word`: the station's name as it appears in topics.
 Packets discover_station(const MqttSettings& settings, const std::string& site,
                          const std::string& word, const std::string& name);
 

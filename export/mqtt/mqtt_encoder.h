@@ -1,7 +1,8 @@
-// MQTT: flat JSON of targets, stations and lines. Home Assistant finds them by itself, from
-// messages of its MQTT discovery. Pure.
+// MQTT messages with targets, stations and lines of sight as flat JSON. Home Assistant finds them
+// by itself, because the encoder also sends the messages of its MQTT discovery. Pure.
 //
-// PREFIX is [mqtt] prefix and the name of the site: several sites may share a broker.
+// PREFIX consists of the configured prefix ([mqtt] prefix) and the name of the site, so that
+// several sites can share a broker.
 //
 //   PREFIX/status           "online" or "offline" (the last will)
 //   PREFIX/targets          every target
@@ -41,15 +42,16 @@ class MqttEncoder : public Encoder {
   std::string site_, prefix_;
   TargetSlots slots_;
   bool slots_are_announced_ = false;
-  std::int64_t free_due_us_ = 0;  // when the free slots are repeated
+  std::int64_t free_due_us_ = 0;  // when the messages of free slots are due again
   std::set<std::string> announced_stations_;
 };
 
-// The beginning of the site's topics.
+// The beginning of all topics of the site.
 std::string site_prefix(const MqttSettings& settings, const std::string& site);
-// The topic of the site's availability, which is also that of the last will.
+// The topic of the site's availability, on which the broker also publishes the last will.
 std::string status_topic(const MqttSettings& settings, const std::string& site);
-// Makes a name fit for one level of a topic: all but letters, digits, - and _ becomes "_".
+// Makes a name fit for one level of a topic: replaces all characters but letters, digits, - and _
+// by "_".
 std::string topic_word(const std::string& name);
 
 }  // namespace ols::exports

@@ -1,4 +1,4 @@
-// How targets and stations appear on an MQTT broker.
+// Settings for targets and stations at an MQTT broker.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@ namespace ols::exports {
 struct MqttSettings {
   std::string prefix = "ols";
   std::string discovery_prefix = "homeassistant";
-  double stale_s = 30.0;  // without news for this time, an entity is unavailable; 0: never
-  int slots = 8;          // number of targets with their own entities at the same time
+  double stale_s = 30.0;  // an entity without news for this long is unavailable; 0: never
+  int slots = 8;          // most targets that have an entity of their own at the same time
 };
 
 }  // namespace ols::exports

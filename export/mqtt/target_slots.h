@@ -1,5 +1,5 @@
-// Numbered slots for targets. Home Assistant keeps an entity for every name that it has ever
-// received, so the names of all targets would fill it. Pure.
+// Numbered slots, one for each present target. Home Assistant keeps an entity for every name that
+// it has ever received; with a name for each target, there would be more and more entities. Pure.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@ class TargetSlots {
  public:
   explicit TargetSlots(std::size_t count) : taken_(count) {}
 
-  // The slot of this target: its own, otherwise the first free one; nullopt: no slot is free.
+  // The slot of this target: the one that it has, otherwise the first free one; nullopt: no slot is
+  // free.
   std::optional<std::size_t> take(const std::string& uid);
   // Frees the target's slot and returns it.
   std::optional<std::size_t> release(const std::string& uid);

@@ -1,4 +1,5 @@
-// Files that appear whole, one for each packet. Packet::where is inserted before the extension.
+// Writes each packet as a file, which appears whole or not at all. Packet::where is inserted into
+// the file's name before the extension.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@ class FileLink : public Link {
  public:
   explicit FileLink(std::string path) : path_(std::move(path)) {}
 
-  // Checks that the file can be written; otherwise the link stays closed.
+  // Checks that the file can be written. If not, throws LinkError, and the link stays closed.
   void open() override;
   void send(const Packet& packet) override;
   void wait(int wake_fd, double seconds) override;
@@ -22,7 +23,7 @@ class FileLink : public Link {
   std::string path_;
 };
 
-// "site.kml" and "-live": "site-live.kml".
+// For example "site-live.kml" from "site.kml" and "-live".
 std::string file_name(const std::string& path, const std::string& where);
 
 }  // namespace ols::exports

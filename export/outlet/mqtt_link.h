@@ -1,4 +1,5 @@
-// A connection to an MQTT broker, over libmosquitto. QoS 0: a late position is useless.
+// A connection to an MQTT broker, with libmosquitto. It uses quality of service 0 (no repetitions),
+// because a late position is useless.
 #pragma once
 
 #include <memory>
@@ -11,7 +12,8 @@
 namespace ols::exports {
 
 struct MqttLogin {
-  std::string client;               // the broker closes an older connection of the same name
+  std::string client;               // client id; the broker closes an older connection with the
+                                    // same id
   std::string user, password_file;  // empty: none
   std::string status_topic;         // "online" while connected, then "offline"; both retained
 };

@@ -1,4 +1,5 @@
-// A queue and a thread in front of a connection, which is reopened whenever it breaks.
+// An outlet that puts packets into a queue. A thread sends them over a connection, and opens the
+// connection again whenever it breaks.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// A connection to a SAPIENT receiver. Until the receiver has accepted the registration, nothing
-// else is sent.
+// A connection to a SAPIENT receiver. First sends the registration, and nothing else until the
+// receiver has accepted it.
 #pragma once
 
 #include "export/outlet/stream_link.h"
@@ -15,7 +15,7 @@ class SapientLink : public StreamLink {
   void open() override;
   void send(const Packet& packet) override;
   void say_goodbye() override;
-  // The last complaint of the receiver about a message; shown for some seconds.
+  // The receiver's last complaint about a message, for some seconds; then empty.
   std::string trouble() const override;
   std::uint64_t complaints() const override { return dialogue_.complaints(); }
 

@@ -1,5 +1,5 @@
-// A stream over TCP or TLS, packet by packet. Data from the receiver are always read, and dropped
-// if unused, so that the receiver need not wait for us.
+// Sends packets one after the other over TCP or TLS. Data from the receiver are always read, even
+// if they are not used, so that the receiver never has to wait.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,8 @@
 
 namespace ols::exports {
 
-// PEM files. Empty: no client certificate; the system's authorities.
+// Paths of PEM files. Empty `certificate` and `key`: no client certificate. Empty `ca`: the
+// system's authorities.
 struct TlsFiles {
   std::string ca, certificate, key;
 };

@@ -7,21 +7,22 @@ struct addrinfo;
 
 namespace ols::exports {
 
-// Call for any TCP connection. Limits the unsent data in the system's buffer, which otherwise takes
-// megabytes. The rest stays in our queue, where a newer message replaces an older one.
+// Limits the unsent data in the system's buffer, which otherwise takes megabytes. What does not fit
+// stays in our queue, where a newer message replaces an older one. Call for every TCP connection.
 void keep_unsent_short(int descriptor);
 
 class TcpSocket {
  public:
-  // Connects to the first of the name's addresses that answers. Looking up the name takes as long
-  // as the system's settings allow. Throws LinkError.
+  // Connects to the first address of the host that answers, within patience_s. The time to look up
+  // the name is not limited by patience_s, but by the system's settings. Throws LinkError.
   TcpSocket(const std::string& host, int port, double patience_s);
   ~TcpSocket();
   TcpSocket(const TcpSocket&) = delete;
   TcpSocket& operator=(const TcpSocket&) = delete;
 
   int descriptor() const { return fd_; }
-  // Waits until the socket can be read or written. False: it cannot within this time.
+  // Waits until the socket can be read (or written, if to_write). False: it cannot within this
+  // time.
   bool wait(bool to_write, double patience_s) const;
 
  private:

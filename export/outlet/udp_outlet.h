@@ -1,4 +1,4 @@
-// Datagrams to one address or group.
+// Sends datagrams to one address or multicast group.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -14,7 +14,8 @@ class UdpOutlet : public Outlet {
  public:
   explicit UdpOutlet(const Address& address);
 
-  // If the system has no room, route or network for a datagram, it is lost and counted.
+  // A datagram that the system cannot send, for lack of room, route or network, is lost and
+  // counted.
   void put(Packets packets) override;
   OutletReport report() const override { return report_; }
 

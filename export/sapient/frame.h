@@ -1,5 +1,5 @@
-// SAPIENT in a stream of bytes. The length of each message comes before it, in four bytes, least
-// significant first. Pure.
+// SAPIENT messages in a stream of bytes. Before each message, four bytes state its length, least
+// significant byte first. Pure.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ inline constexpr std::size_t kFrameHead_bytes = 4;
 
 // The message, preceded by its length.
 std::string framed(const std::string& message);
-// Size of the framed message at the beginning of the bytes; nullopt: its length is incomplete.
+// Size of the framed message with which the bytes begin; nullopt: its length is not complete yet.
 std::optional<std::size_t> framed_length(std::string_view bytes);
 
 }  // namespace ols::exports

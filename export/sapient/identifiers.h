@@ -1,5 +1,5 @@
-// SAPIENT names nodes by UUID and everything else by ULID. Both are computed from our own names, so
-// they survive a restart. Pure.
+// The identifiers of SAPIENT: a UUID for a node, a ULID for everything else. Both are computed from
+// our own names; therefore they are the same after a restart. Pure.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace ols::exports {
 
-// In lower case. It is marked as version 4 because receivers insist on that, although its bits are
-// a hash.
+// The UUID in lower case. Its bits are a hash of the name, but it is marked as version 4 (random),
+// because receivers insist on that.
 std::string uuid_of(const std::string& name);
 bool is_uuid(const std::string& text);
-// `time_ms`: since 1970; 0 for an object without a time of its own.
+// `time_ms`: UTC since 1970; 0 for an object without a time.
 std::string ulid_of(std::int64_t time_ms, const std::string& name);
 
 }  // namespace ols::exports

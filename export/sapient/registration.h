@@ -1,4 +1,5 @@
-// The registration, which describes at length what the node sends. Pure.
+// The registration, the first message to a SAPIENT receiver. It describes in detail what the node
+// sends. Pure.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace ols::exports {
 
-// Framed. Receivers answer it with an acknowledgement.
+// The framed message. The receiver answers it with an acknowledgement.
 std::string sapient_registration(const SapientSettings& settings, std::int64_t utime_us);
 
 }  // namespace ols::exports

@@ -1,5 +1,5 @@
-// A SAPIENT receiver's messages, and our answers. Alerts and other messages not meant for us are
-// ignored. Pure.
+// Reads a SAPIENT receiver's messages, and answers them. Ignores alerts and other messages that are
+// not meant for us. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ class SapientDialogue {
  public:
   explicit SapientDialogue(SapientSettings settings) : settings_(std::move(settings)) {}
 
-  // Takes bytes in any pieces; returns the answers. Throws std::runtime_error, in words for a
-  // person, if the bytes are not SAPIENT.
+  // Takes received bytes, in pieces of any size; returns the answers. Throws std::runtime_error,
+  // with the reason in words for a person, if the bytes are not SAPIENT.
   std::vector<std::string> take(std::string_view bytes, std::int64_t utime_us);
-  // The connection starts again.
+  // Call when the connection starts again.
   void clear();
 
-  // The answer to our registration; nullopt: none yet.
+  // The receiver's answer to our registration; nullopt: none yet.
   std::optional<bool> acceptance() const { return acceptance_; }
-  const std::string& refusal() const { return refusal_; }   // the reason, if it was refused
+  const std::string& refusal() const { return refusal_; }   // why our registration was refused
   std::uint64_t complaints() const { return complaints_; }  // only increases
   const std::string& last_complaint() const { return complaint_; }
 

@@ -1,5 +1,5 @@
-// SAPIENT: the site as one node, with its targets. It sends no lines: the standard measures
-// bearings from the node, which has only one place. Pure.
+// SAPIENT messages: the site is one node, which detects the targets. Lines of sight are not sent,
+// because SAPIENT measures bearings from the node, which has only one place. Pure.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@ class SapientEncoder : public Encoder {
   Packets due(std::int64_t utime_us) override;
   void begin_again() override;
 
-  static constexpr double kStationSilent_s = 10.0;  // a station silent for longer is no longer
+  static constexpr double kStationSilent_s = 10.0;  // a station that is silent for longer is not
                                                     // reported
 
  private:

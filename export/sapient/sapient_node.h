@@ -15,9 +15,9 @@ struct SapientSettings {
   double status_s = 5.0;  // interval of status reports
 };
 
-// The id by which the site is known as a node.
+// The node's id: the configured one, otherwise one computed from the site's name.
 std::string node_id(const SapientSettings& settings);
-// A message of the node, without content yet.
+// A message of the node, still without content.
 sapient::SapientMessage message_of(const SapientSettings& settings, std::int64_t utime_us);
 
 }  // namespace ols::exports

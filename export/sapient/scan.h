@@ -1,6 +1,6 @@
-// The instants for which targets are reported. SAPIENT receivers report a clock fault if a node's
-// next report is earlier than the last, or less than 0.08 s later. They accept any number of
-// reports for one instant. Pure.
+// The instants for which targets are reported. A SAPIENT receiver reports a clock fault if a node's
+// report is earlier than the node's previous one, or less than 0.08 s later. It accepts any number
+// of reports for the same instant. Therefore, targets are reported for common instants. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,9 @@ namespace ols::exports {
 
 class Scan {
  public:
-  // The instant for this target's report, at most kGap_s before the target's own time; nullopt: it
-  // was already reported for that instant.
+  // The instant for which to report this target: less than kGap_s before the target's own time, and
+  // at most one second after it. nullopt: the target was already reported, with the same state, for
+  // that instant.
   std::optional<std::int64_t> instant_of(const Target& target);
   void begin_again() { told_.clear(); }
 

@@ -1,4 +1,4 @@
-// Cursor on Target, one event per packet. Pure.
+// Encodes records as Cursor on Target, one event per packet. Pure.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace ols::exports {
 
 class CotEncoder : public Encoder {
  public:
-  // framing: nullopt means XML.
+  // framing: of the protobuf encoding; nullopt: the events are XML.
   CotEncoder(CotSettings settings, std::optional<TakFraming> framing)
       : settings_(std::move(settings)), framing_(framing) {}
 

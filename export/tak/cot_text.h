@@ -1,4 +1,4 @@
-// An event of Cursor on Target as bytes. Pure.
+// Encodes an event of Cursor on Target as XML or protobuf. Pure.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 namespace ols::exports {
 
 std::string cot_xml(const CotEvent& event);
-// An event without the XML declaration, and a document of such elements. A TAK server answers a
-// request for an object's history with such a document.
+// An event without the XML declaration, and a document made of such elements. A TAK server answers
+// a request for an object's history with a document of this form.
 std::string cot_element(const CotEvent& event);
 std::string cot_document(const std::string& elements);
 
-// The TAK protocol, version 1: protobuf behind a header. The header is `bf 01 bf` in a mesh
-// datagram; in a stream it is `bf` and the length as a varint.
+// The TAK protocol, version 1: a header, then protobuf. In a datagram to a mesh, the header is `bf
+// 01 bf`; in a stream, it is `bf` and the length as a varint.
 enum class TakFraming { kMesh, kStream };
 std::string cot_protobuf(const CotEvent& event, TakFraming framing);
 
