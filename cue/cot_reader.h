@@ -1,7 +1,7 @@
-// Cursor on Target: an event as XML, or as a message of the TAK protocol, version 1. Pure.
+// Reads events of Cursor on Target, as XML or as messages of the TAK protocol, version 1. Pure.
 //
-// The errors ce (circular) and le (linear) are taken as one sigma, as in the schema. Some sources
-// state the 90 % error instead. Their cues are then more accurate than assumed.
+// The errors ce (circular) and le (linear) are read as one sigma, as the schema defines them. Some
+// sources state the 90 % error instead; their cues are more accurate than they appear.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace ols::cues {
 
-// Selects events by the beginnings of their types: "a-" is everything, "a-h-A" hostile objects in
-// the air.
+// Selects events by the beginnings of their types: "a-" selects everything, "a-h-A" hostile objects
+// in the air.
 using CotTypes = std::vector<std::string>;
 
 Reading cot_reading(const std::string& message, const CotTypes& types);

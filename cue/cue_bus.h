@@ -1,4 +1,4 @@
-// Sends cues on the bus. It receives nothing but its own self-test.
+// Sends cues on the bus. Receives nothing but its own self-test.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ enum class Format { kCot, kAircraftJson, kSbs, kJson, kSapient };
 struct InputConfig {
   Format format = Format::kCot;
   std::string from;                      // see parse_source()
-  double poll_s = 1.0;                   // interval; only for a file or a web address
+  double poll_s = 1.0;                   // interval of reading; only for a file or a web address
   std::vector<std::string> types{"a-"};  // only for CoT events
   InputRules rules;
 };
@@ -38,7 +38,7 @@ config::Section cue_section(CueConfig& config);  // the whole file
 config::Section input_section(CueConfig& config);
 // Throws ConfigError.
 CueConfig load_cue_config(const std::string& path);
-// The same from text. Errors give `name` instead of the path.
+// Parses a text instead of a file. Errors show `name` instead of the path.
 CueConfig parse_cue_config(const std::string& text, const std::string& name);
 const char* to_string(Format format);
 

@@ -1,4 +1,4 @@
-// Splits a stream of bytes, in any pieces, into messages. Pure.
+// Splits a stream of bytes, which arrive in pieces of any size, into messages. Pure.
 #pragma once
 
 #include <string>
@@ -8,34 +8,34 @@
 namespace ols::cues {
 
 enum class Framing {
-  kWhole,  // a message comes as a whole: a datagram or a file
+  kWhole,  // each piece is a whole message: a datagram or a file
   kLines,
-  kCot,      // XML events in sequence, or messages of the TAK protocol with their length
-  kSapient,  // messages, each with its length in four bytes before it
+  kCot,      // XML events one after the other, or messages of the TAK protocol with their length
+  kSapient,  // messages, each after four bytes with its length
 };
 
 class Framer {
  public:
   explicit Framer(Framing framing) : framing_(framing) {}
 
-  // Takes bytes, and returns the messages that they complete.
+  // Takes the next bytes of the stream, and returns the messages that they complete.
   std::vector<std::string> take(std::string_view bytes);
   // Call when the stream starts again.
   void clear() { drop_rest(); }
-  // How often the stream was dropped because a message had no end within the size limit.
+  // How often received bytes were dropped because a message did not end within kLongest_bytes.
   int overlong() const { return overlong_; }
 
   static constexpr std::size_t kLongest_bytes = 65'536;
 
  private:
-  // Takes the next message; false: it is not yet complete.
+  // Each takes the next message; false: it is not complete yet.
   bool next(std::string& message);
   bool next_line(std::string& message);
   bool next_event(std::string& message);
   bool next_tak_message(std::string& message);
   bool next_sapient_message(std::string& message);
-  // Drops the stream because a message's length is impossible: where the next one begins is
-  // unknown.
+  // Drops all bytes received, because a message states an impossible length, and nobody knows where
+  // the next message begins.
   bool refuse_overlong();
 
   void drop_rest();
@@ -43,7 +43,8 @@ class Framer {
 
   Framing framing_;
   std::string bytes_;
-  std::size_t taken_ = 0;  // bytes of complete messages; they are erased once, at the end of take()
+  std::size_t taken_ = 0;  // size of the messages already returned at the beginning of bytes_;
+                           // take() erases them at its end
   int overlong_ = 0;
 };
 

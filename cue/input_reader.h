@@ -1,4 +1,4 @@
-// Turns the bytes of one input into readings. Pure.
+// Turns the bytes of one input into readings, in any of the formats. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace ols::cues {
 
 class InputReader {
  public:
-  // `is_stream`: bytes come in any pieces; otherwise each piece is a whole message. `geoid_m`:
-  // converts SAPIENT's heights above the geoid; without it, such heights are refused.
+  // `is_stream`: true: the bytes come in pieces of any size; false: each piece is a whole message.
+  // `geoid_m`: converts SAPIENT's heights above the geoid; if empty, such heights are refused.
   InputReader(Format format, CotTypes types, bool is_stream, GeoidHeight geoid_m = {});
 
   Readings take(std::string_view bytes, std::int64_t now_us);
@@ -30,7 +30,7 @@ class InputReader {
   Framer framer_;
   SbsReader sbs_;
   SapientReader sapient_;
-  int overlong_ = 0;  // the framer's count that has already been reported
+  int overlong_ = 0;  // the part of framer_.overlong() that has been reported
 };
 
 }  // namespace ols::cues

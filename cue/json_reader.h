@@ -1,4 +1,5 @@
-// Reads a cue from a line of JSON, for sources without a format of their own: docs/cues.md. Pure.
+// Reads a cue from a line of JSON (docs/cues.md), for sources that have no format of their own.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace ols::cues {
 
-// `now_us`: used for a line that states no time.
+// `now_us`: time of the cue if the line states none.
 Reading json_reading(const std::string& line, std::int64_t now_us);
 
 }  // namespace ols::cues

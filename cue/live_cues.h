@@ -1,4 +1,4 @@
-// The live cues of all inputs: judges new readings, and selects which cues are sent. Pure.
+// The live cues of all inputs. Judges new readings, and keeps the cues that are to be sent. Pure.
 #pragma once
 
 #include <array>
@@ -12,17 +12,18 @@
 
 namespace ols::cues {
 
-// The errors that are assumed if a source states none, and the limits within which objects are
-// wanted.
+// For one input: the errors that are assumed if its source states none, and the limits of area and
+// age.
 struct InputRules {
   std::string name;
   Area area_deg{-90.0, -180.0, 90.0, 180.0};
   double max_age_s = 10.0;
   double horizontal_sd_m = 50.0, vertical_sd_m = 100.0;
-  double pressure_height_sd_m = 300.0;  // error of a pressure altitude, taken as a height above the
-                                        // ellipsoid
-  double velocity_sd_m_s = 3.0;         // error of a stated velocity
-  double speed_sd_m_s = 15.0;           // 1-sigma of an unknown velocity, on each axis
+  double pressure_height_sd_m = 300.0;  // error of a pressure altitude that is used as a height
+                                        // above the ellipsoid
+  double velocity_sd_m_s = 3.0;         // error of a velocity that the source states
+  double speed_sd_m_s = 15.0;           // 1-sigma of each axis of a velocity that the source does
+                                        // not state, taken as 0
 };
 
 // A complete cue: all values are finite.
@@ -44,11 +45,11 @@ struct InputCounts {
 
 class LiveCues {
  public:
-  // `most`: max number of cues; each input gets an equal share.
+  // `most`: the most cues of all inputs together; each input may have an equal share.
   LiveCues(std::vector<InputRules> inputs, int most);
 
   void take(std::size_t input, const Readings& readings, std::int64_t now_us);
-  // The cues that are not too old, each with its own time.
+  // The cues that are not too old, each with the time that its source states.
   std::vector<LiveCue> live(std::int64_t now_us);
   const std::vector<InputCounts>& counts() const { return counts_; }
 
@@ -59,15 +60,15 @@ class LiveCues {
     std::int64_t until_us = 0;
   };
   void judge(std::size_t input, const Report& report, std::int64_t now_us);
-  // Removes expired cues. Also removes cues whose time is in the future: they are from before the
-  // host's clock was set back.
+  // Removes expired cues, and cues whose time is in the future. Such cues remain if the host's
+  // clock is set back.
   void forget(std::int64_t now_us);
   bool is_full(std::size_t input) const;
   void refuse(std::size_t input, const Refused& refused);
 
   std::vector<InputRules> inputs_;
   std::vector<InputCounts> counts_;
-  std::size_t most_;  // per input
+  std::size_t most_;  // most cues of each input
   std::map<std::string, Kept> kept_;
 };
 

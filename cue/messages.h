@@ -1,4 +1,4 @@
-// Cues as messages of the bus.
+// Converts cues to messages of the bus.
 #pragma once
 
 #include <cstdint>

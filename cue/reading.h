@@ -1,4 +1,4 @@
-// What an input reports about one object, or the reason why the report is not used.
+// A reading: what an input reports about one object, or the reason why the report is not used.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace ols::cues {
 
-// NaN or nullopt: the source does not state the value.
+// A value is NaN or nullopt if the source does not state it.
 struct Report {
-  std::string name;           // permanent name that the source uses
-  std::string label;          // for people
+  std::string name;           // the source's permanent name for the object
+  std::string label;          // name for people
   std::int64_t utime_us = 0;  // UTC of the position
-  std::int64_t stale_us = 0;  // until when the data are valid, as the source states; 0: not stated
+  std::int64_t stale_us = 0;  // when the data become invalid, as the source states; 0: not stated
   double latitude_deg = 0.0, longitude_deg = 0.0;
   double height_m = 0.0;  // above the ellipsoid, unless it is a pressure altitude
   bool is_pressure_height = false;
@@ -33,8 +33,8 @@ enum class Refusal {
   kNoHeight,
   kStale,
   kFuture,
-  kOwn,        // an object that ols-export itself has sent
-  kOtherType,  // its type is not wanted
+  kOwn,        // an object that an ols-export has sent
+  kOtherType,  // the object's type is not wanted
   kOutOfArea,
   kTooMany,
   kCount,  // not a reason: the number of reasons

@@ -1,4 +1,5 @@
-// Reads SAPIENT (BSI Flex 335 v2.0): detections of other nodes that a middleware passes on. Pure.
+// Reads SAPIENT (BSI Flex 335 v2.0): the detections of other nodes, which a SAPIENT middleware
+// passes on. Pure.
 #pragma once
 
 #include <functional>
@@ -18,23 +19,25 @@ using GeoidHeight = std::function<double(double, double)>;
 
 class SapientReader {
  public:
-  // Without a geoid, heights above the geoid are refused.
+  // If `geoid_m` is empty, heights above the geoid are refused.
   explicit SapientReader(GeoidHeight geoid_m) : geoid_m_(std::move(geoid_m)) {}
 
-  // `message`: without the length before it. Returns nothing for a message that is no detection.
+  // `message`: without the four bytes of its length. Returns no reading for a message that is not a
+  // detection.
   Readings take(const std::string& message);
 
  private:
-  // What is needed to read a node's detections: they are relative to its place, and use its units.
+  // What must be known of a node to read its detections, which may be relative to its place and use
+  // the units that it has registered.
   struct Node {
     std::optional<Geodetic> place;
     double speed_unit_m_s = 1.0;
-    std::string utm_zone;  // for locations that state no zone
+    std::string utm_zone;  // for locations that state no UTM zone
   };
   Reading reading_of(const exports::sapient::DetectionReport& report, const std::string& node,
                      std::int64_t utime_us) const;
   static void note_registration(Node& node, const exports::sapient::Registration& registration);
-  // Sets the report's position; if it is unknown, returns why.
+  // Each sets values of the report; if that is impossible, returns why.
   std::optional<Refusal> place(Report& report, const exports::sapient::Location& location,
                                const Node& from) const;
   std::optional<Refusal> set_height(Report& report,

@@ -1,5 +1,5 @@
-// One line of SBS, a format of aircraft receivers: cells separated by commas. The first cell is the
-// type of the message. Pure.
+// One line of SBS, a format of aircraft receivers. A line consists of cells that are separated by
+// commas; the first cell is the type of the message. Pure.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace ols {
 
 class SbsLine {
  public:
-  // The cells that are read: the time of the message, as text, and the aircraft's data.
+  // Positions of the cells that are read.
   enum Cell : std::size_t {
     kType = 0,
     kAddress = 4,

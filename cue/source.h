@@ -1,4 +1,4 @@
-// The source of an input, as the configuration writes it. Pure.
+// Where an input comes from, as the configuration states it. Pure.
 #pragma once
 
 #include <string>
@@ -11,8 +11,9 @@ struct Source {
   Carrier carrier = Carrier::kUdp;
   std::string host;  // udp: the address to listen on, or a group; tcp, http: the server
   int port = 0;
-  std::string path;       // of a file, on this host or on a web server
-  std::string interface;  // udp group: the interface's address; empty: any
+  std::string path;       // path of a file, on this host or on a web server
+  std::string interface;  // udp, multicast group: address of the network interface to listen on;
+                          // empty: any
 };
 
 // "udp://239.2.3.1:6969?interface=10.0.0.5", "udp://0.0.0.0:6969", "tcp://HOST:PORT",

@@ -1,4 +1,4 @@
-// The state of the inputs, for people and for programs. Pure.
+// The state of ols-cue and its inputs, for people and for programs. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The source of an input's bytes. All inlets share the process's io_context, so none makes another
-// wait.
+// An inlet receives the bytes of one input. All inlets share the process's io_context, and none
+// makes another wait.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace ols::cues {
 
 struct InletReport {
   bool is_open = false;
-  std::string trouble;  // in words; empty: no trouble
+  std::string trouble;  // in words for a person; empty: no trouble
   std::int64_t openings = 0, failures = 0, bytes = 0;
 };
 
-// Receives the bytes. `begins`: called before the first bytes of each connection.
+// Where an inlet passes its bytes. `begins`: called before the first bytes of each connection.
 struct InletSink {
   std::function<void()> begins;
   std::function<void(std::string_view)> bytes;
@@ -41,7 +41,7 @@ class Inlet {
   InletReport report_;
 };
 
-// `poll_s`: interval between two reads of a file.
+// Makes the inlet for a source. `poll_s`: interval of reading, for a file or a web address.
 std::unique_ptr<Inlet> make_inlet(boost::asio::io_context& context, const Source& source,
                                   double poll_s, InletSink sink);
 

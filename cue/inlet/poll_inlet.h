@@ -1,5 +1,5 @@
-// A file that is rewritten again and again, on this host or on a web server. It is read
-// periodically, and passed on when it has changed.
+// Reads a file that its source rewrites again and again, on this host or on a web server. The file
+// is read periodically, and passed on if it has changed.
 #pragma once
 
 #include <boost/asio/io_context.hpp>

@@ -1,4 +1,4 @@
-// A stream from a server. Reconnects by itself.
+// Receives a stream from a TCP server. Reconnects by itself.
 #pragma once
 
 #include <boost/asio/io_context.hpp>

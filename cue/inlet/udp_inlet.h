@@ -1,4 +1,5 @@
-// Datagrams to this host or to a group. A group that is silent for ten seconds is joined again.
+// Receives datagrams to this host or to a multicast group. Joins a group again after ten seconds
+// without a datagram.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -27,7 +28,7 @@ class UdpInlet : public Inlet {
   boost::asio::ip::udp::socket socket_;
   boost::asio::steady_timer timer_;
   std::vector<char> buffer_;
-  bool heard_ = false;  // whether a datagram has come since the last look
+  bool heard_ = false;  // whether a datagram has come since the last check
 };
 
 }  // namespace ols::cues
