@@ -1,5 +1,5 @@
-// How accurately the site can determine a position now, over a box of the map: the Cramer-Rao bound
-// of one exposure of every station (geometry/precision.h). Pure.
+// A map of the accuracy with which the site can now determine a position, for a box on the map. It
+// is the Cramer-Rao bound for one exposure of every station (geometry/precision.h). Pure.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,14 @@
 
 namespace ols::console {
 
-inline constexpr int kAccuracyCells = 40;  // along each side
+inline constexpr int kAccuracyCells = 40;  // number of cells along each side of the box
 
-// `stations`: from the site's state, with the stated deviations of their position, heading and
-// tilt. One pixel of white noise is added, and each station is assumed to look at the place. Silent
-// stations are left out.
-// The query is "?box=WEST,SOUTH,EAST,NORTH&above=METRES" [deg; m above the stations' mean]; nullopt
-// for any other query. The answer is {height_m, columns, rows, sd_m}. sd_m is the root of the
-// covariance's trace, by rows from the north-west; null where fewer than two stations determine the
-// place.
+// `stations`: the stations of the site's state. Their errors are the 1-sigmas of position, heading
+// and tilt that they state, and one pixel of white noise. Each station is assumed to look at the
+// place. Silent stations are left out. `query`: "?box=WEST,SOUTH,EAST,NORTH&above=METRES" [deg; m
+// above the stations' mean height]; nullopt for any other query. Returns {height_m, columns, rows,
+// sd_m}. sd_m is the square root of the covariance's trace, for each cell, row by row from the
+// north-west corner; null if fewer than two stations determine the place.
 std::optional<Json> accuracy_map(const Json& stations, const std::string& query);
 
 }  // namespace ols::console

@@ -1,4 +1,4 @@
-// The angles to which a station's unit must turn to look at a place. Pure.
+// Computes the pan and tilt at which a station's camera looks at a place. Pure.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace ols::console {
 
-// The angles as the unit counts them, within its travel. `station`: the fields of its last status
-// (docs/console.md). nullopt if the station does not know its orientation, or cannot reach the
-// angles.
+// The angles as the PTU counts them, within its travel. `station`: the fields of the station's last
+// status (docs/console.md). nullopt if the station does not know its orientation, or if the PTU
+// cannot reach the angles.
 std::optional<PanTilt> aim_at_place(const Json& station, const Geodetic& place);
 
 }  // namespace ols::console

@@ -1,4 +1,5 @@
-// A browser's WebSocket messages: strictly parsed, and refused with a reason in words. Pure.
+// The messages that a browser sends over its WebSocket. Parses them strictly; a message that is
+// refused gets a reason in words. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +19,14 @@
 
 namespace ols::console {
 
-// `number`: chosen by the browser, repeated in the answer; 0: none.
+// In all requests, `number` is chosen by the browser and repeated in the answer; 0: none.
 struct CommandRequest {
   std::int64_t number = 0;
   wire::Order order;
-  // The console's time that the browser received last [us UTC], because the browser's own clock may
-  // be wrong. Required for rates, optional otherwise.
+  // The time of the console [us UTC] that the browser received last; it shows how old the command
+  // is, even if the browser's clock is wrong. Required for rates, optional for other commands.
   std::optional<std::int64_t> heard_utime_us;
-  std::optional<Geodetic> place = {};  // for kPoint: the place, instead of angles
+  std::optional<Geodetic> place = {};  // for kPoint: the place to point at, instead of angles
 };
 struct StopAllRequest {
   std::int64_t number = 0;
@@ -33,8 +34,8 @@ struct StopAllRequest {
 struct ControlRequest {
   std::int64_t number = 0;
   std::string station;
-  bool take = true;                            // true: take control, also from its holder; false:
-                                               // give it up
+  bool take = true;                            // true: take control, also from the person who has
+                                               // it; false: give it up
   std::optional<std::int64_t> heard_utime_us;  // as for a command
 };
 // From now on the browser wants pictures of these stations only.
@@ -47,7 +48,8 @@ struct TakenRequest {
   std::vector<std::string> stations;
   bool state = false;
 };
-// Where a replay should continue, whether it runs, and how fast. Missing values do not change.
+// Where a replay should continue, whether it should play, and how fast. A value that is missing
+// stays as it is.
 struct ReplayRequest {
   std::int64_t number = 0;
   std::optional<std::int64_t> at_us;
@@ -66,7 +68,8 @@ struct CueRequest {
   wire::CueOrder order;
   std::optional<std::int64_t> heard_utime_us;  // as for a command
 };
-// Somebody handles an alarm. `event`: the alarm's number in the list of events.
+// Somebody acknowledges an alarm, and thereby says that he handles it. `event`: the alarm's number
+// in the list of events.
 struct AcknowledgeRequest {
   std::int64_t number = 0;
   std::uint64_t event = 0;
@@ -100,7 +103,7 @@ using ClientMessage =
 inline constexpr std::size_t kMostMessageBytes = 8192;
 inline constexpr std::size_t kMostWatched = 64;
 
-// The messages are in docs/console.md.
+// Parses a message; docs/console.md describes all messages.
 ClientMessage parse_client_message(std::string_view text);
 
 }  // namespace ols::console

@@ -1,4 +1,4 @@
-// Limits the connections, in total and per address, so that no host can take them all.
+// Limits the number of connections, in total and per address, so that no host can take all of them.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@ namespace ols::console {
 
 class ConnectionLimit {
  public:
-  // Keep the place for as long as the connection lasts; null: the connection is refused.
+  // A connection's place in the count. Keep it as long as the connection lasts; null: the
+  // connection is refused.
   using Place = std::shared_ptr<const void>;
   Place admit(const std::string& address);
 

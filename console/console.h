@@ -1,5 +1,6 @@
-// The console without its sockets: the site's state, the viewers, the next message to each of them,
-// and the commands. Pure: time, messages and texts come in, orders and texts go out.
+// The console without its sockets. Holds the site's state, the viewers (connected browsers) and the
+// pending orders, and makes the next message for each viewer. Pure: time, messages and texts come
+// in, orders and texts go out.
 #pragma once
 
 #include <cstdint>
@@ -52,9 +53,10 @@ class Console {
   void receive(Picture picture);
   void receive(ReceivedProcedure procedure);
 
-  // Somebody's order in a recording, for the events of a replay.
+  // Takes an order of somebody from a recording, for the list of events in a replay.
   void receive(const wire::Order& order, const Now& now);
-  // A reply to an order. An order from turn() has boot 0; in a replay, the order is one of the log.
+  // Takes a reply to an order. `reply.order` has boot id 0 for an order from turn(); in a replay,
+  // it is the id in the log.
   void receive(const wire::Reply& reply);
 
   // The newest picture (JPEG) of a station's guided procedure; null: there is none.
@@ -67,54 +69,55 @@ class Console {
   // Operators' decisions on cues since the last call.
   std::vector<wire::CueOrder> take_cue_orders() { return cues_.take(); }
 
-  // The videos that somebody watches.
+  // The stations' videos that at least one viewer watches.
   WatchedVideos watched_video() const { return viewers_.watched(video_addresses_); }
 
-  // The alarms of the console itself.
+  // Takes the current alarms of the console itself.
   void receive_own(const std::vector<Alarm>& alarms, const Now& now);
 
-  // Call before anything else, with the areas and incidents that were kept.
+  // Restores the areas and incidents that were stored. Call before anything else.
   void resume(KeptIncidents kept, const Now& now);
   const IncidentBook& incidents() const { return incidents_; }
-  // What must be written and sent about incidents since the last call of turn().
+  // What the last call of turn() has found to be stored and sent about incidents.
   const IncidentBook::News& incident_news() const { return incident_news_; }
   void incident_trouble(const std::vector<Alarm>& alarms) { incident_trouble_ = alarms; }
 
-  // A browser has opened its WebSocket; returns the viewer's number. A second one of the same name
-  // is called "ana 2".
+  // Call when a browser has opened its WebSocket; returns the viewer's number. The second viewer of
+  // the user "ana" is called "ana 2".
   std::uint64_t open(const std::string& name, Role role) { return viewers_.open(name, role); }
   void close(std::uint64_t viewer);
   void take(std::uint64_t viewer, std::string_view text, const Now& now);
   // The next message for this viewer, made from the newest state; nullopt: there is nothing new.
-  // Call when the last message was sent completely: messages never queue.
+  // Call only when the last message has been sent completely, so that messages never queue.
   std::optional<Outgoing> next(std::uint64_t viewer, const Now& now);
 
-  // Why orders cannot go out; empty: they can.
+  // Tells why orders cannot be sent; empty: they can.
   void bus_is(const Alarm& trouble) { bus_trouble_ = trouble; }
   const Outcome& bus_trouble() const { return bus_trouble_; }
 
-  // Stops every station, also those that are first heard within the next seconds. Returns their
-  // ids. All viewers are told which stations do not confirm the stop.
+  // Stops every station, including stations whose first status arrives within the next
+  // kStopPatience_s. Returns the ids of the stations that are known now. All viewers are told which
+  // stations do not confirm the stop.
   std::vector<std::string> stop_all(const Person& by, const Ticket& ticket, const Now& now);
-  // The person who sent an HTTP request, by the name of the session. `viewer`: the browser, as the
-  // request states it; ignored if that browser has another user.
+  // The person who sent an HTTP request. `name`: the user of the session. `viewer`: the number of
+  // the browser, as the request states it; ignored if that browser belongs to another user.
   Person person(const std::string& name, std::uint64_t viewer) const {
     return viewers_.person(name, viewer);
   }
 
-  // Call often: updates outcomes, control and ages. Returns the orders to be sent now.
+  // Call often: updates outcomes, control and ages. Returns the orders to send now.
   std::vector<wire::Order> turn(const Now& now);
 
-  // This console shows a replay. From now on no order goes out, and every message has the replay's
-  // state. `is_urgent`: viewers get the state at once.
+  // Tells that this console shows a replay, and the replay's state. From now on no order goes out,
+  // and every message contains this state. `is_urgent`: viewers get the state at once.
   void replay_is(const Json& state, bool is_urgent);
   void timeline_is(const Json& timeline) { replay_.timeline = timeline; }
   bool is_replay() const { return !replay_.state.is_null(); }
   const Json& timeline() const { return replay_.timeline; }
-  // What viewers have requested of the replay since the last call.
+  // The viewers' requests for the replay since the last call.
   std::vector<ReplayRequest> take_replay_requests() { return std::exchange(replay_.requests, {}); }
   Moment moment() const;
-  // Shows this moment to every viewer, replacing the whole state.
+  // Replaces the whole state by this moment, and shows it to every viewer.
   void show(const Moment& moment);
   Json events_since(Revision revision) const { return site_.events_since(revision); }
   Revision revision() const { return site_.revision(); }
@@ -122,20 +125,21 @@ class Console {
   Json state(const Now& now) const;
   // The fields of a station's last status; null: the station is unknown.
   const Json* fields_of(const std::string& id) const { return site_.fields_of(id); }
-  // Where a station's pictures disagree with the land's skyline (SeenSkylines::of()).
+  // Where a station's pictures disagree with the skyline of the land model (SeenSkylines::of()).
   Json seen_skyline(const std::string& station) const { return skylines_.of(station); }
   Json health(const Now& now) const;
-  // Adds an event about this console. `who`: the person who did it; empty: nobody did.
+  // Adds an event about this console. `who`: the person who caused it; empty: nobody.
   void note(const std::string& who, const Alarm& what, const Now& now);
   std::size_t viewers() const { return viewers_.size(); }
 
-  // Time between two messages with changes. Slightly below 0.05 s, so that the jitter of a turn
-  // does not lower the rate of 20 Hz. At 10 Hz a new position would wait for up to 0.1 s.
+  // Shortest time between two messages with changes. The rate is 20 Hz; at 10 Hz, a new position
+  // could wait for 0.1 s. The period is slightly below 0.05 s, so that jitter of the turns does not
+  // lower the rate.
   static constexpr double kDeltaPeriod_s = 0.045;
 
  private:
   struct ReplayState {
-    Json state, timeline;  // null: this is no replay
+    Json state, timeline;  // null: this is not a replay
     std::vector<ReplayRequest> requests;
   };
 
@@ -155,18 +159,18 @@ class Console {
   void tell_outcomes(const Now& now);
   void begin_stop(const std::string& station, const std::string& name, Ticket ticket,
                   const Now& now);
-  // Tells everybody who controls one of these stations what another person has done there.
+  // Tells each viewer who controls one of these stations what another person has done to it.
   void tell_holders(const std::vector<std::string>& stations, const char* what, const Person& by,
                     const Now& now);
   void look_at_incidents(const Now& now);
   void show_areas();
   void show_incident(const Incident& incident);
   void look_at_own_alarms(const Now& now);
-  // Concludes a change that needs no station: adds its event and answers the viewer.
+  // Ends a request that needs no answer of a station: adds its event, and answers the viewer.
   void conclude(std::uint64_t id, std::int64_t number, const Alarm& what, const Now& now);
-  // Why this viewer may not make changes; empty: the viewer may.
+  // Why this viewer may not change anything; empty: the viewer may.
   Outcome change_refusal(std::uint64_t id) const;
-  // The same of a change at a station.
+  // The same for a change at a station.
   Outcome change_refusal(std::uint64_t id, const std::string& station) const;
   void forget_gone();
   void add_time(Json& message, const Now& now) const;

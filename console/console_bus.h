@@ -1,4 +1,5 @@
-// Connects the console to the bus: messages go to the console, orders go out.
+// Connects the console to the bus: passes messages from the bus to the console, and sends the
+// console's orders.
 #pragma once
 
 #include <string>
@@ -24,9 +25,9 @@ class ConsoleBus {
   void send(const std::vector<ProcedureAnswer>& answers, const Now& now);
   void send(const std::vector<wire::CueOrder>& orders, const Now& now);
   void send(const IncidentBook::News& news, const Now& now);
-  // Why orders cannot go out; empty: they can.
+  // Why orders cannot be sent; empty: they can.
   Alarm trouble() const { return client_.trouble(); }
-  // The state of the bus, for people.
+  // The state of the bus in one line, for people.
   std::string in_one_line() const;
 
  private:
@@ -40,7 +41,7 @@ class ConsoleBus {
   wire::OrderSender sender_;
   AnswerSender answer_sender_;
   IncidentSender incident_sender_;
-  Now now_;  // the time of this turn, for the handlers
+  Now now_;  // the time that turn() was given, for the handlers
   std::vector<Alarm> alarms_;
   bool send_failed_ = false;
 };

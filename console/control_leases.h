@@ -1,5 +1,5 @@
-// Which viewer controls which station. A viewer keeps control until it gives it up, another takes
-// it over, or it has given no command for a while. Pure.
+// Which viewer controls which station. A viewer keeps control until it gives control up, another
+// viewer takes it, or it has given no command for `timeout_s`. Pure.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class ControlLeases {
  public:
   explicit ControlLeases(double timeout_s) : timeout_s_(timeout_s) {}
 
-  // A command of this viewer: takes or prolongs control. Returns why the command is refused,
-  // because another viewer has control; empty: it is not refused.
+  // Call for each command of a viewer: takes or prolongs control. If another viewer has control,
+  // returns this as the reason to refuse the command; otherwise empty.
   Outcome use(const std::string& station, std::uint64_t viewer, const std::string& name,
               double now_s);
   void take(const std::string& station, std::uint64_t viewer, const std::string& name,
@@ -34,7 +34,8 @@ class ControlLeases {
   // The viewer that controls the station; 0: nobody does.
   std::uint64_t holder(const std::string& station, double now_s) const;
 
-  // Stations whose holder has changed since the last call, with the present holder.
+  // The stations whose holder has changed since the last call, each with its present holder;
+  // nullopt: nobody.
   std::vector<std::pair<std::string, std::optional<Holder>>> changes(double now_s);
 
  private:

@@ -1,4 +1,4 @@
-// Operators' decisions on cues: sends them to the fusion and takes its answers. Pure.
+// Operators' decisions on cues, which go to the fusion, and the fusion's answers. Pure.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@ namespace ols::console {
 
 class CueOrders {
  public:
-  // Why the order cannot go out; empty: it can.
+  // Why an order cannot be given now; empty: it can.
   Outcome refusal(Role role, const Alarm& bus_trouble) const;
   // Gives an order. Call only if refusal() is empty.
   void give(wire::CueOrder order, const Ticket& ticket, double now_s);
-  // The orders given since the last call, each with its own sequence number and boot 0.
+  // The orders given since the last call, each with its own sequence number and boot id 0.
   std::vector<wire::CueOrder> take() { return std::exchange(given_, {}); }
 
   void receive(const wire::Reply& reply);
-  // Orders that the fusion has answered, or that have timed out.
+  // The outcomes of orders that the fusion has answered, or that have timed out.
   std::vector<Verdict> finished(double now_s);
 
  private:
@@ -31,7 +31,7 @@ class CueOrders {
     double begun_s = 0.0;
   };
 
-  std::int64_t sequence_ = 0;  // of the last order
+  std::int64_t sequence_ = 0;  // sequence number of the last order
   std::vector<wire::CueOrder> given_;
   std::vector<Waiting> waiting_;
   std::vector<Verdict> answered_;

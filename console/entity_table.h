@@ -1,5 +1,5 @@
-// Entities of one kind by id, as JSON objects. Each field has the revision of its last change, so
-// that no viewer needs a queue of its own. Pure.
+// Entities of one kind by id, as JSON objects. Each field has the revision of its last change. A
+// viewer gets whatever has changed since its last revision, and needs no queue of its own. Pure.
 #pragma once
 
 #include <cstddef>
@@ -14,32 +14,32 @@
 namespace ols::console {
 
 using Json = nlohmann::json;
-// Counts the changes of the whole site's state.
+// The number of changes of the whole site's state.
 using Revision = std::uint64_t;
 
 class EntityTable {
  public:
   explicit EntityTable(std::size_t most) : most_(most) {}
 
-  // Sets these fields; others do not change. The revision grows only if something differs. False if
-  // the table is full and nothing in it is stale.
+  // Sets these fields of an entity; its other fields stay. The revision grows only if a value
+  // differs. False if the table is full and no entity is stale.
   bool set(const std::string& id, const Json& fields, double now_s, Revision& revision);
-  // Sets one field, but does not count as a sign of life.
+  // Sets one field of a known entity, but does not make the entity less stale.
   void mark(const std::string& id, const std::string& field, const Json& value, Revision& revision);
   void remove(const std::string& id, Revision& revision);
   void clear(Revision& revision);
 
-  // Marks entities that are silent for stale_s ("stale": true), and removes those silent for
-  // forget_s. Returns those that have just become stale.
+  // Marks entities as stale ("stale": true) that were not set for stale_s, and removes those not
+  // set for forget_s. Returns the ids of those that have just become stale.
   std::vector<std::string> age(double now_s, double stale_s, double forget_s, Revision& revision);
 
   const Json* find(const std::string& id) const;
   std::size_t size() const { return entities_.size(); }
   std::size_t stale() const;
   std::vector<std::string> ids() const;
-  Json all() const;                    // an array of whole objects, each with its "id"
-  Json changed(Revision since) const;  // an array of objects: "id" and the changed fields
-  // Ids removed since that revision; nullopt if it is too long ago.
+  Json all() const;                    // an array of all objects, each with its "id"
+  Json changed(Revision since) const;  // an array of objects with "id" and the fields changed since
+  // The ids removed since that revision; nullopt if the revision is too old to know.
   std::optional<Json> gone(Revision since) const;
 
  private:

@@ -1,5 +1,5 @@
-// The events at the site (errors, alarms, commands), each with its time, person and outcome. Only
-// the newest are kept. Pure.
+// The list of events at the site: errors, alarms and commands, each with its time, person and
+// outcome. Keeps only the newest. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace ols::console {
 struct Event {
   std::int64_t utime_us = 0;  // this host's UTC
   std::string kind;           // "error", "alarm", "command", "site", "console"
-  std::string station;        // empty: it concerns the site
+  std::string station;        // empty: the event concerns the site
   std::string who;            // the person who gave a command
   std::string text;
-  std::string outcome;  // of a command: empty while unknown, "sent", "done", or the text of the
-                        // refusal
-  Alarm said{};         // the alarm or note with id and parameters; for an error only its text
-  Outcome refusal{};    // why a command is not carried out
+  std::string outcome;  // outcome of a command: empty while unknown, "sent", "done", or the text of
+                        // the refusal
+  Alarm said{};         // the alarm or note, with id and parameters; empty if there is only a text
+  Outcome refusal{};    // why a command was not carried out
 };
 
-// Makes the event of a note of the table.
+// Makes an event from a note, which is a row of conditions.toml.
 inline Event noted(std::int64_t utime_us, const char* kind, const std::string& station,
                    const std::string& who, const Alarm& note, const std::string& outcome = {}) {
   return {utime_us, kind, station, who, note.text, outcome, note};
@@ -32,10 +32,11 @@ inline Event noted(std::int64_t utime_us, const char* kind, const std::string& s
 
 class EventList {
  public:
-  // Returns the event's number, by which its outcome can be added later. An event, except a
-  // command, that is repeated within kRepeat_us is counted and moves to the end, so that it pushes
-  // out no other event. An alarm holds until it is ended. An error that only explains an alarm or a
-  // refused command is not listed (0). If the error comes first, the alarm takes over its row.
+  // Adds an event. Returns the event's number, by which its outcome can be added later. If an event
+  // is repeated within kRepeat_us, the known event is counted again and moves to the end, so that
+  // repetitions push out no other event; this is not done for commands. An alarm stays active until
+  // end(). An error that only explains an active alarm or a refused command is not listed; the
+  // result is then 0. If the error comes before its alarm, the alarm replaces it.
   std::uint64_t add(Event event, Revision& revision);
   void conclude(std::uint64_t number, const Outcome& refusal, Revision& revision);
 
@@ -44,10 +45,10 @@ class EventList {
            Revision& revision);
   // All alarms of a station have ended.
   void end_all(const std::string& station, std::int64_t utime_us, Revision& revision);
-  // Somebody has seen this alarm and handles it. False: there is no such alarm.
+  // Notes that somebody handles this alarm. False: there is no such alarm.
   bool acknowledge(std::uint64_t number, const std::string& who, Revision& revision);
 
-  Json since(Revision revision) const;  // as an array, oldest first
+  Json since(Revision revision) const;  // events added or changed since, as an array, oldest first
   static constexpr std::size_t kMost = 500;
   static constexpr std::int64_t kRepeat_us = 60'000'000;
 
@@ -56,9 +57,9 @@ class EventList {
     std::uint64_t number;
     Revision changed;
     Event event;
-    std::string key;  // equal for repetitions of the same event
+    std::string key;  // the same for repetitions of an event
     int times = 1;
-    std::optional<std::int64_t> over_us;  // when an alarm ended; nullopt: it holds
+    std::optional<std::int64_t> over_us;  // when an alarm ended; nullopt: it is active
     std::string acknowledged;             // the person who handles the alarm
     bool holds() const { return event.kind == "alarm" && !over_us; }
   };

@@ -1,5 +1,6 @@
-// A listening socket that the service manager, or the demo, has opened and handed over (systemd's
-// socket activation). The console then needs no permission for the port or its network.
+// A listening socket that another process has opened and passed to the console by systemd's socket
+// activation. The other process is the service manager, or the demo. The console then needs no
+// permission to open the port itself.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,8 @@ struct HandedOverSocket {
   int port = 0;
 };
 
-// nullopt if no socket was handed over. Throws std::runtime_error if it is no listening TCP socket.
+// nullopt if no socket was passed. Throws std::runtime_error if the socket is not a listening TCP
+// socket.
 std::optional<HandedOverSocket> handed_over_socket();
 
 }  // namespace ols::console

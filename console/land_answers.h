@@ -1,4 +1,4 @@
-// What the answers about the land have in common.
+// HTTP responses about the land, for LandSkylines and SiteLand.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 namespace ols::console {
 
 WebResponse land_said(int status, std::string json);
-// [land] is not configured.
+// The response if [land] is not configured.
 WebResponse no_land();
-// The JSON that `made` returns, or why it throws.
+// The response with the JSON that `made` returns; if `made` throws, with the reason.
 WebResponse land_answer(const std::function<Json()>& made);
 
 }  // namespace ols::console

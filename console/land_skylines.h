@@ -1,5 +1,6 @@
-// The skylines of the land from the stations' cameras, for browsers. One takes a second, so no
-// request waits for it: a browser has few connections, and its orders need one.
+// The skyline of the land model as each station's camera would see it, for browsers. To compute one
+// takes a second. No request waits for that, because a browser has few connections, and needs one
+// for its orders.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,26 +17,28 @@ namespace ols::console {
 
 class LandSkylines {
  public:
-  // Without terrain: no land is known.
+  // `terrain`: null if there is no land model.
   LandSkylines(std::string version, std::shared_ptr<const land::Terrain> terrain)
       : version_(std::move(version)), terrain_(std::move(terrain)) {}
 
-  // At once: the skyline, why there is none, or 202 while it is not computed yet.
+  // Answers at once: with the skyline, with the reason why there is none, or with status 202 while
+  // the skyline is being computed.
   struct Answer {
     WebResponse response;
-    bool begins = false;  // nobody computes it yet: compute() it, then keep() the result
+    bool begins = false;  // the caller must call compute(), then keep() with the result
   };
   Answer answer(const LandTask& task);
-  // Takes a second; call it in any thread.
+  // Computes a skyline, which takes a second. Call from any thread.
   WebResponse compute(const LandTask& task) const;
   void keep(const LandTask& task, WebResponse response);
 
-  static constexpr double kMoved_m = 1.0;  // a camera that has moved further has another skyline
+  static constexpr double kMoved_m = 1.0;  // if a camera has moved farther than this, its skyline
+                                           // is computed again
 
  private:
   struct Kept {
     Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
-    std::optional<WebResponse> response;  // nullopt: being computed
+    std::optional<WebResponse> response;  // nullopt: it is being computed
   };
   std::string version_;
   std::shared_ptr<const land::Terrain> terrain_;

@@ -1,4 +1,4 @@
-// Questions of browsers about the land around the site. Pure.
+// Browsers' questions about the land around the site. Pure.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,27 @@
 
 namespace ols::console {
 
-// A question that is answered in another thread: a skyline takes a second to compute, and the land
-// is read from a disk.
+// A question that is answered in another thread, because a skyline takes a second to compute and
+// the land is read from a disk.
 struct LandTask {
   enum class What { kAbout, kGround, kHeights, kSkyline, kProfile };
   What what = What::kAbout;
   // kGround: latitude, longitude [deg]. kHeights: west, south, east, north [deg]. kProfile:
-  // latitude, longitude [deg], height [m, above the WGS84 ellipsoid]; without a height, the land's
-  // there.
+  // latitude, longitude [deg] and height [m, above the WGS84 ellipsoid] of the other end; if the
+  // height is missing, the other end is on the surface of the land.
   std::vector<double> numbers{};
   std::string station{};  // kSkyline, kProfile
-  Geodetic camera{};      // that station's camera centre
+  Geodetic camera{};      // camera centre of that station
 };
 
-// Where a station's camera is, by the fields of its status; nullopt: the station does not know.
+// The place of a station's camera, from the fields of the station's status; nullopt: not known.
 std::optional<Geodetic> camera_of(const Json& station);
 
-// `path`: "/api/land", "/api/land/ground", "/api/land/heights"; `query`: "?at=LATITUDE,LONGITUDE",
-// "?box=WEST,SOUTH,EAST,NORTH". nullopt for any other.
+// A question about the site: `path` "/api/land"; "/api/land/ground" with the `query`
+// "?at=LATITUDE,LONGITUDE"; "/api/land/heights" with "?box=WEST,SOUTH,EAST,NORTH". nullopt for any
+// other.
 std::optional<LandTask> land_task(std::string_view path, std::string_view query);
-// Of a station: `what` is "skyline" or "profile"; `query` of a profile is
+// A question about a station: `what` is "skyline", or "profile" with the `query`
 // "?to=LATITUDE,LONGITUDE[,HEIGHT]". nullopt for any other.
 std::optional<LandTask> land_task(std::string_view what, std::string_view query,
                                   const std::string& station, const Geodetic& camera);

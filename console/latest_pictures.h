@@ -1,5 +1,5 @@
-// The console's pictures, and which one a browser receives next: always the newest of a station;
-// nothing queues. Pure.
+// The stations' pictures, and which of them a browser receives next. A browser always gets a
+// station's newest picture; older pictures are skipped, not queued. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace ols::console {
 
 class LatestPictures {
  public:
-  // The stations that a browser watches, and the number of the last picture sent to it for each.
+  // What one browser watches, and for each station the number of the last picture that it was sent.
   struct View {
     std::set<std::string> watched;
     Codec codec = Codec::kJpeg;
@@ -26,14 +26,16 @@ class LatestPictures {
   };
 
   void receive(Picture picture);
-  // Of the stations with a new picture, takes the one that was sent longest ago: even over a slow
-  // link each gets its turn. Returns the message's bytes (docs/console.md); nullopt: nothing new.
+  // The message (docs/console.md) with the next picture for this browser; nullopt: nothing new. Of
+  // all stations with a new picture, it is the one whose last picture was sent longest ago, so that
+  // every station gets its turn even over a slow link.
   std::optional<std::string> next(View& view) const;
   void keep_only(const std::function<bool(const std::string&)>& is_known);
 
   // The newest single picture of a station; null: it has none.
   const Picture* newest(const std::string& station) const;
-  // newest(): the newest single picture of each station. show(): replaces all pictures by these.
+  // newest() returns the newest single picture of each station. show() replaces all pictures by
+  // these.
   std::map<std::string, Picture> newest() const;
   void show(const std::map<std::string, Picture>& pictures);
 

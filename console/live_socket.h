@@ -1,4 +1,5 @@
-// A browser's WebSocket: takes its messages, and sends what is new for it, one message at a time.
+// A browser's WebSocket: receives the browser's messages, and sends it whatever is new, one message
+// at a time.
 #pragma once
 
 #include <boost/beast/core.hpp>
@@ -27,7 +28,8 @@ class Live {
   virtual void pump() = 0;
 };
 
-// `Shared` has the server's api, console and list of live sockets.
+// `Shared`: the part of the server that all connections share, with api, console and the list of
+// live sockets.
 template <class Stream, class Shared>
 class LiveSocket : public Live, public std::enable_shared_from_this<LiveSocket<Stream, Shared>> {
  public:
@@ -76,8 +78,8 @@ class LiveSocket : public Live, public std::enable_shared_from_this<LiveSocket<S
     read();
   }
 
-  // Reads until reading fails. When the current write has failed too, nothing keeps this object
-  // alive.
+  // Reads until reading fails. The callbacks keep this object alive: when reading has failed and no
+  // write is under way, it is destroyed.
   void read() {
     ws_.async_read(buffer_,
                    [self = this->shared_from_this()](boost::beast::error_code error, std::size_t) {
@@ -100,7 +102,7 @@ class LiveSocket : public Live, public std::enable_shared_from_this<LiveSocket<S
 
   bool is_logged_in() const { return shared_.api.lasts(token_, clock_now()); }
 
-  // Limits the browser's messages: a browser sends a few a second.
+  // Whether the browser sends at most kMostMessages_s messages a second; usually it sends a few.
   bool has_patience() {
     const double now_s = clock_monotonic_s();
     if (now_s > counted_from_s_ + 1.0) {

@@ -1,5 +1,5 @@
-// Limits the attempts to log in, per address and for all addresses together. A few are allowed at
-// once, then one after each interval. Pure.
+// Limits the attempts to log in, per address and for all addresses together. A few attempts are
+// allowed at once, then one more after each interval. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@ namespace ols::console {
 
 class LoginLimit {
  public:
-  // Whether this address may try now. Counts the try.
+  // Whether this address may try to log in now. Counts the attempt.
   bool admit(const std::string& address, double now_s);
 
-  static constexpr double kTries = 5.0;        // that are allowed at once
-  static constexpr double kRegained_s = 10.0;  // one more try is allowed after this time
-  static constexpr double kAllTries = 50.0;    // of all addresses together
+  static constexpr double kTries = 5.0;        // attempts that are allowed at once
+  static constexpr double kRegained_s = 10.0;  // one more attempt is allowed after this time
+  static constexpr double kAllTries = 50.0;    // the same for all addresses together
   static constexpr double kAllRegained_s = 1.0;
   static constexpr std::size_t kMostAddresses = 1000;
 

@@ -1,6 +1,6 @@
-// Converts bus messages to the console's own values. nullopt for a message that cannot be decoded,
-// has another schema, or does not come from the station of its channel. Texts are made safe to show
-// (base/text/plain_text.h).
+// Converts messages of the bus to the console's own values. Each function returns nullopt for a
+// message that cannot be decoded, has another schema, or does not name the station of its channel.
+// Texts are made safe to show (base/text/plain_text.h).
 #pragma once
 
 #include <optional>
@@ -16,7 +16,8 @@ namespace ols::console {
 std::optional<ReceivedStation> station_from(const BusMessage& message);
 // The station's name and its bearing.
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message);
-// nullopt for another channel: the paper's estimate is not shown as a target.
+// Also nullopt on any channel but kTargetChannel, because the estimate by the paper's method
+// (OLS_TARGET_PAPER) is not shown as a target.
 std::optional<ReceivedTarget> target_from(const BusMessage& message);
 std::optional<ReceivedSkyline> skyline_from(const BusMessage& message);
 std::optional<ReceivedOcclusion> occlusion_from(const BusMessage& message);

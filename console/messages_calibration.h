@@ -1,5 +1,5 @@
-// Converts a station's calibration, from its own status or from the fusion's, to the console's
-// values.
+// Converts what a status says about a station's calibration to the console's values. The status is
+// the station's own, or the fusion's.
 #pragma once
 
 #include "console/received.h"
@@ -8,10 +8,12 @@
 
 namespace ols::console {
 
-// {state, id, utime_us, sd_deg}: "none", "in use", "refused" or "doubted"; its id; its last
-// observation, null if not stated; 1-sigma of a direction, each axis, null if there is none.
+// Returns {state, id, utime_us, sd_deg}. state: "none", "in use", "refused" or "doubted". utime_us:
+// time of the calibration's last observation; null if not stated. sd_deg: 1-sigma of a direction,
+// each axis; null if there is none.
 Json calibration_of(const ols_msg::station_status_t& status);
-// The same, but without an id; from the fusion's report on the station with this index.
+// The same without the id, from the fusion's report on a station. `station`: the station's index in
+// the status.
 Json calibration_of(const ols_msg::fusion_status_t& status, std::size_t station);
 
 }  // namespace ols::console

@@ -1,4 +1,4 @@
-// The cues in a fusion's status as the console's own values.
+// Converts the cues in the fusion's status to the console's own values.
 #pragma once
 
 #include "console/received.h"
@@ -6,7 +6,7 @@
 
 namespace ols::console {
 
-// An array, sorted by id.
+// Returns an array, sorted by id.
 Json cues_of(const ols_msg::fusion_status_t& status);
 
 }  // namespace ols::console

@@ -1,4 +1,4 @@
-// Incidents on the bus: incident_t.
+// Sends incidents on the bus, as incident_t.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace ols::console {
 
-// Sends each incident that has changed. Repeats those that continue once a second, because a
-// message may be lost and a program may start later.
+// Sends each incident that has changed. Repeats an incident once a second as long as its target is
+// inside, because a message may be lost, and a program may start later.
 class IncidentSender {
  public:
   explicit IncidentSender(std::int64_t boot_id) : boot_id_(boot_id) {}

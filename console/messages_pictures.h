@@ -1,4 +1,5 @@
-// Pictures of the bus and of a station's video socket (docs/video.md) as the console's own values.
+// Converts pictures from the bus, and from a station's video socket (docs/video.md), to the
+// console's own values.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,10 @@ namespace ols::console {
 
 std::optional<Picture> picture_from(const BusMessage& message);
 
-// A request to a station's video socket (not to the bus) for a picture.
+// The bytes of a request to a station's video socket (not to the bus) for a picture later than
+// `after_utime_us`.
 std::vector<std::uint8_t> video_request(std::int64_t after_utime_us, int max_width_px, int quality);
-// The same for H.264. key_frame: the answer must be decodable without earlier units.
+// The same for H.264. key_frame: whether the answer must be decodable without earlier units.
 std::vector<std::uint8_t> stream_request(std::int64_t after_utime_us, int max_width_px, int quality,
                                          bool key_frame);
 std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes, Codec codec);

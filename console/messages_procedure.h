@@ -1,4 +1,5 @@
-// The messages of guided procedures (lcmtypes/procedure_t.lcm) as the console's own values.
+// Converts the messages of guided procedures (lcmtypes/procedure_t.lcm) to the console's own
+// values.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +10,11 @@
 
 namespace ols::console {
 
-// nullopt for a message that cannot be decoded, is of another schema, or is not from the station of
+// nullopt for a message that cannot be decoded, has another schema, or does not name the station of
 // its channel. Texts are made safe to show (base/text/plain_text.h).
 std::optional<ReceivedProcedure> procedure_from(const BusMessage& message);
 
-// Sends answers under one boot id, each with its own sequence number.
+// Sends answers with one boot id, each with its own sequence number.
 class AnswerSender {
  public:
   explicit AnswerSender(std::int64_t boot_id) : boot_id_(boot_id) {}

@@ -1,4 +1,5 @@
-// The page's files, embedded in the program. console/page/build makes them from its sources.
+// The files of the web page, embedded in the program. console/page/build makes them from the page's
+// sources.
 #pragma once
 
 #include <string_view>
@@ -11,7 +12,7 @@ struct PageFile {
   std::string_view gzipped;
 };
 
-// Null if there is no such file. "/" is "/index.html".
+// The file at this path; null if there is none. "/" means "/index.html".
 const PageFile* page_file_at(std::string_view path);
 
 }  // namespace ols::console

@@ -1,4 +1,4 @@
-// Messages of the bus, translated into values for the console's model of the site.
+// The contents of bus messages, as values for the console's model of the site.
 #pragma once
 
 #include <compare>
@@ -14,9 +14,9 @@ namespace ols::console {
 
 struct ReceivedStation {
   std::string id;
-  Json fields;  // docs/console.md lists them
+  Json fields;  // listed in docs/console.md
   bool is_stopped = false;
-  std::string video_address;  // where its video can be fetched; empty: nowhere
+  std::string video_address;  // address of its video socket; empty: it has none
   std::vector<Alarm> alarms;
   std::string last_error;
   std::int64_t last_error_utime_us = 0;
@@ -26,19 +26,20 @@ struct ReceivedTarget {
   enum class What { kPosition, kLine, kNoPosition, kDropped, kNothing };
   What what = What::kNothing;
   std::int64_t boot_id = 0;
-  std::string id;  // of the target; of a line: its station
+  std::string id;  // id of the target; for a line: id of its station
   Json fields;
   double latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
 };
 
-// The fusion's message to a station that the land hides a target from it.
+// The fusion's message to a station that the land hides a target from the station.
 struct ReceivedOcclusion {
   std::string station;
-  std::string target;  // its id
+  std::string target;  // the target's id
   bool is_hidden = false;
   std::int64_t utime_us = 0;
-  std::int64_t back_us = 0;  // when it comes out; 0: not known
-  double holds_s = 0.0;      // validity, from the arrival; 0: the previous message no longer holds
+  std::int64_t back_us = 0;  // when the target is predicted to be visible again; 0: not known
+  double holds_s = 0.0;      // how long the message is valid after it arrives; 0: it ends the
+                             // previous message's validity
 };
 
 struct ReceivedFusion {
@@ -48,23 +49,23 @@ struct ReceivedFusion {
   std::string last_error;
 };
 
-// How pictures are coded: each one alone, or as changes of the one before.
+// How pictures are coded: kJpeg: each picture alone; kH264: each as changes from the one before.
 enum class Codec { kJpeg, kH264 };
 
 struct Picture {
   std::string station;
   Json header;  // listed in docs/console.md
   std::string bytes;
-  bool is_video = false;  // from the station's video socket, not from the bus (preview)
+  bool is_video = false;  // from the station's video socket; false: a preview from the bus
   Codec codec = Codec::kJpeg;
-  bool is_key = false;  // of H.264: can be decoded without earlier ones
+  bool is_key = false;  // H.264: can be decoded without earlier pictures
 };
 
-// For H.264: a key frame is requested after this many units. A browser that has lost units can
-// continue from a key frame.
+// For H.264: after this many units (pictures), a key frame is requested, so that a browser that has
+// lost units can continue from it.
 inline constexpr int kUnitsOfKeyFrame = 90;
 
-// A station's video that somebody watches, and how it is coded.
+// A station's video that a viewer watches, and how it is coded.
 struct WatchedVideo {
   std::string station;
   Codec codec = Codec::kJpeg;

@@ -1,4 +1,4 @@
-// Converts numbers of messages to what a browser receives.
+// Converts numbers from messages to JSON for a browser.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,8 @@
 
 namespace ols::console {
 
-// Null if unknown. Rounded, because a browser does not need 17 digits ten times a second.
+// The number with this many decimals, because a browser does not need 17 digits ten times a second;
+// null if the number is not finite.
 inline Json rounded(double value, int decimals) {
   if (!std::isfinite(value) || std::abs(value) > 1e15) return nullptr;
   const double scale = std::pow(10.0, decimals);
@@ -26,7 +27,7 @@ Json rounded_all(const double (&values)[count], int decimals) {
   return result;
 }
 
-// As text, because a browser's numbers do not hold 64 bits.
+// A number as text, because JavaScript's numbers cannot hold 64 bits.
 inline std::string number_text(std::int64_t number) { return std::to_string(number); }
 
 }  // namespace ols::console

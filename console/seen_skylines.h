@@ -1,4 +1,4 @@
-// Where the stations' pictures disagree with the land's skyline. Pure.
+// Where the stations' pictures disagree with the skyline of the land model. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,22 @@
 
 namespace ols::console {
 
-// A sector of a station's skyline.
+// A sector of a station's seen skyline.
 struct ReceivedSkyline {
   std::string station;
-  std::int64_t begun_us = 0;  // when this skyline began: another one replaces it
+  std::int64_t begun_us = 0;  // when the station began this skyline; a sector with another value
+                              // begins a new one
   int sector = 0;
-  // Columns, and elevations [rad] in the pictures, that differ from the land's by more than their
-  // errors.
+  // Columns in which the pictures differ from the land model by more than their errors, each with
+  // the elevation [rad] in the pictures.
   std::vector<std::pair<int, double>> differing{};
 };
 
 class SeenSkylines {
  public:
   void receive(const ReceivedSkyline& heard);
-  // {differing: [[azimuth_deg, elevation_deg]]} clockwise from north; empty if nothing is known.
+  // {differing: [[azimuth_deg, elevation_deg]]}, azimuths clockwise from north; the list is empty
+  // if nothing is known.
   Json of(const std::string& station) const;
 
  private:

@@ -1,5 +1,5 @@
-// The land around the site for browsers: heights of the ground, the land below a line of sight. Use
-// it in one thread, which may read from a disk.
+// The land around the site, for browsers: heights of the ground, and the land below a line of
+// sight. Use it in one thread, which may wait for a disk.
 #pragma once
 
 #include "console/land_task.h"
@@ -10,7 +10,7 @@ namespace ols::console {
 
 class SiteLand {
  public:
-  // Without terrain: no land is known.
+  // `folder` without terrain: there is no land model.
   explicit SiteLand(land::TerrainFolder folder) : folder_(std::move(folder)) {}
 
   // The answer to a browser; docs/console.md lists its fields.

@@ -1,6 +1,7 @@
-// What a browser was sent and has not processed yet: the site's state, stations' pictures. At most
-// one of each is under way. Otherwise messages would wait in its queue if they are sent faster than
-// it processes them. A slow browser gets less, but nothing old. Pure.
+// What a browser was sent but has not processed yet: the site's state, and pictures of stations. At
+// most one state, and one picture of each station, is under way. Otherwise messages would pile up
+// in a browser that processes them more slowly than they arrive. A slow browser gets fewer
+// messages, but no old ones. Pure.
 #pragma once
 
 #include <set>
@@ -10,11 +11,12 @@ namespace ols::console {
 
 class UnderWay {
  public:
-  static constexpr const char* kState = "";  // stations' names are not empty
+  static constexpr const char* kState = "";  // stands for the state, because no station's name is
+                                             // empty
 
   void sent(const std::string& thing) { things_.insert(thing); }
-  // The browser has processed it. A browser that never reports this is sent everything at the pace
-  // of its connection.
+  // Call when the browser reports that it has processed this. A browser that never reports it is
+  // sent everything as fast as its connection allows.
   void taken(const std::string& thing) {
     is_paced_ = true;
     things_.erase(thing);

@@ -1,6 +1,7 @@
-// The access units of a station's H.264 since its last key frame. A browser is sent all units that
-// it lacks in one message, because it needs them all to show the newest; the header is that of the
-// newest. So a slow browser gets fewer and larger messages, but its picture is the newest. Pure.
+// The access units (pictures) of a station's H.264 video since the last key frame. To show the
+// newest unit, a browser needs all units before it; therefore it is sent all that it lacks in one
+// message, with the header of the newest. A slow browser gets fewer and larger messages, but always
+// sees the newest picture. Pure.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +15,17 @@ namespace ols::console {
 
 class UnitChain {
  public:
-  // After this many units without a key frame, all units are dropped until one comes.
+  // If this many units come without a key frame, all units are dropped until a key frame comes.
   static constexpr std::size_t kMostUnits = 4 * kUnitsOfKeyFrame;
   static constexpr std::size_t kMostBytes = 16U << 20U;
 
-  // Numbers ascend. Units before the first key frame cannot be shown, and are dropped.
+  // Adds a unit; numbers must ascend. Units before the first key frame cannot be shown and are
+  // dropped.
   void add(const Picture& unit, std::uint64_t number);
   // The number of the newest unit; 0: there is none.
   std::uint64_t newest() const { return units_.empty() ? 0 : units_.back().number; }
   std::int64_t newest_utime_us() const { return units_.empty() ? 0 : units_.back().utime_us; }
-  // The message for a browser whose last unit was number `had`. There must be a unit.
+  // The message for a browser that has all units up to number `had`. There must be a unit.
   std::string message_after(std::uint64_t had) const;
 
  private:

@@ -1,5 +1,6 @@
-// The people who may log in: a file with one line "NAME ROLE HASH" each, made by `ols-console
-// --add-user`. Pure, except for the hash, which takes a tenth of a second and 64 MB.
+// The people who may log in. They are listed in a file, which `ols-console --add-user` makes, with
+// a line "NAME ROLE HASH" for each. Pure. The functions with a password's hash take a tenth of a
+// second and 64 MB.
 #pragma once
 
 #include <map>
@@ -11,7 +12,7 @@
 
 namespace ols::console {
 
-// Each role may do all that the previous role may. In order: look; command; manage the users.
+// A kViewer may look, a kOperator may also give commands, and a kAdmin may also manage the users.
 enum class Role { kViewer, kOperator, kAdmin };
 std::string_view name(Role role);
 std::optional<Role> role_named(std::string_view name);
@@ -26,15 +27,15 @@ using Users = std::map<std::string, User>;
 // Throws std::invalid_argument: "FILE:LINE: what is wrong".
 Users parse_users(const std::string& text, const std::string& file);
 std::string users_text(const Users& users);
-// The error in a list of users, such as a missing admin; empty: the list is valid.
+// What is wrong with a list of users, for example that it has no admin; empty: nothing.
 Outcome users_problem(const Users& users);
-// The error in a name or a password for a new user; empty: it is valid.
+// What is wrong with the name or the password of a new user; empty: nothing.
 Outcome name_problem(std::string_view name);
 Outcome password_problem(std::string_view password);
 
 std::string hash_password(const std::string& password);
-// Takes as long for an unknown user (empty hash) as for a known one, so that names cannot be
-// guessed.
+// Takes as long for an unknown user (empty hash) as for a known one, so that the time does not
+// reveal which names exist.
 bool verify_password(const std::string& hash, const std::string& password);
 
 }  // namespace ols::console

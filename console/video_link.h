@@ -1,6 +1,6 @@
 // The console's connection to one station's video socket (docs/video.md). Requests the newest
-// picture again and again, with size and quality; reconnects after a failure. Use it in one thread,
-// that of the io_context.
+// picture again and again, with the wanted size and quality; reconnects after a failure. Use it
+// only in the thread of the io_context.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -21,23 +21,24 @@ namespace ols::console {
 struct VideoWish {
   int max_width_px = 960;
   int quality = 65;
-  // Quality of H.264: in the demo it needs a tenth of the data rate of JPEG.
+  // Quality of H.264. In the demo, H.264 of this quality needs a tenth of the data rate of JPEG.
   int thin_quality = 45;
-  double interval_s = 0.0;  // from one picture to the next request
+  double interval_s = 0.0;  // pause between a picture and the next request
   Codec codec = Codec::kJpeg;
 };
 
 class VideoLink : public std::enable_shared_from_this<VideoLink> {
  public:
-  // Receives a whole video_frame_t, still encoded. Returns its utime, so that the next request asks
-  // for a later picture. nullopt: it is no frame; the connection is then closed.
+  // Receives the bytes of a whole video_frame_t. Returns the frame's utime, so that the next
+  // request asks for a later picture. nullopt: the bytes are not a frame; the connection is then
+  // closed.
   using Take = std::function<std::optional<std::int64_t>(std::vector<std::uint8_t>)>;
 
   VideoLink(boost::asio::io_context& io, const boost::asio::ip::tcp::endpoint& endpoint,
             const VideoWish& wish, Take take);
 
   void begin() { connect(); }
-  // No callback is called after this.
+  // Ends the connection. `take` is not called any more.
   void end();
 
  private:
@@ -50,7 +51,7 @@ class VideoLink : public std::enable_shared_from_this<VideoLink> {
   void receive_body(std::uint32_t length);
   void taken();
   void fail();
-  // Closes the connection unless the next step begins in time.
+  // Closes the connection unless the next step begins within this time.
   void expect_within(double seconds);
 
   const boost::asio::ip::tcp::endpoint endpoint_;

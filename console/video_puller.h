@@ -1,5 +1,5 @@
-// Pulls the pictures of the watched stations, once for each codec, in its own thread. Only the
-// newest of each station is kept; for H.264, also what is needed to decode it.
+// Fetches the pictures of the watched videos from the stations, in its own thread. Only the newest
+// picture of each video is kept; for H.264, also the units that are needed to decode it.
 #pragma once
 
 #include <memory>
@@ -13,16 +13,16 @@ namespace ols::console {
 
 class VideoPuller {
  public:
-  // Connects only to addresses in these networks: addresses come over the bus, where anybody may
-  // write. Throws std::invalid_argument.
+  // `networks`: connects only to addresses in these networks, because the addresses come over the
+  // bus, where anybody may write. Throws std::invalid_argument if a network is not valid.
   VideoPuller(const std::vector<std::string>& networks, const VideoWish& wish);
   ~VideoPuller();
   VideoPuller(const VideoPuller&) = delete;
   VideoPuller& operator=(const VideoPuller&) = delete;
 
-  // From now on pulls only these videos.
+  // From now on, fetches these videos and no others.
   void watch(const WatchedVideos& videos);
-  // What has come since the last call: the newest picture of each station; for H.264 all units,
+  // The pictures since the last call: of JPEG, the newest of each station; of H.264, all units,
   // oldest first.
   std::vector<Picture> take();
 

@@ -1,5 +1,5 @@
-// The console's HTTP interface without HTTP: the answers to requests, the logged-in users, and who
-// may open a WebSocket. Pure, except for drawing session tokens.
+// The console's web interface without sockets: answers HTTP requests, knows the logged-in users,
+// and decides who may open a WebSocket. Pure, except for drawing session tokens.
 #pragma once
 
 #include <functional>
@@ -33,30 +33,33 @@ struct WebResponse {
   std::vector<std::pair<std::string, std::string>> headers;
 };
 
-// A log-in whose password must still be verified. That takes long and is done elsewhere.
+// A log-in whose password must still be verified. The caller does so in another thread, because it
+// takes long.
 struct LoginTask {
   std::string name, password, hash;
 };
 
-// A user to be added or changed. Hashing the password takes long, so it is done elsewhere.
+// A user to be added or changed. The caller hashes the password in another thread, because it takes
+// long.
 struct UserTask {
   std::string by, name, password;
   Role role = Role::kViewer;
 };
 
-// A request for the users' own maps. It waits for a disk, so it is answered elsewhere.
+// A request for the users' own maps. The caller answers it in another thread, because it may wait
+// for a disk.
 struct MapTask {
   std::string map = {};  // empty: the list of maps
   TileAddress tile = {};
-  bool accuracy = false;  // an accuracy map, not a tile
+  bool accuracy = false;  // true: for an accuracy map; false: for a tile
 };
 
 using WebAnswer = std::variant<WebResponse, LoginTask, UserTask, MapTask, LandTask>;
 
 class WebApi {
  public:
-  using DrawToken = std::function<std::string()>;  // 64 hexadecimal digits that nobody can guess
-  // Stores the users; throws std::exception on failure.
+  using DrawToken = std::function<std::string()>;  // returns 64 random hexadecimal digits
+  // Stores the users; throws an exception on failure.
   using SaveUsers = std::function<void(const Users&)>;
   WebApi(const ConsoleConfig& config, Users users, Console& console, DrawToken draw_token,
          SaveUsers save_users);
@@ -68,13 +71,15 @@ class WebApi {
   // The session that may open a WebSocket with this request, or the response that refuses it.
   std::variant<Session, WebResponse> admit(const WebRequest& request, const Now& now) const;
 
-  // Whether the session of a WebSocket still lasts: it ends after its time or with the log-out.
+  // Whether the session of a WebSocket still lasts. A session ends after its time, or when the user
+  // logs out or is changed.
   bool lasts(const std::string& token, const Now& now) const {
     return is_open() || sessions_.find(token, now.monotonic_s).has_value();
   }
 
-  bool is_open() const { return is_open_; }  // no log-in is needed: on loopback, without users
-  // For every response: headers that restrict the browser.
+  // Whether no log-in is needed, because there are no users. This is allowed only on loopback.
+  bool is_open() const { return is_open_; }
+  // Headers for every response, which restrict what the browser does with it.
   static std::vector<std::pair<std::string, std::string>> security_headers(bool is_tls);
 
  private:

@@ -1,6 +1,6 @@
-// Serves the console over HTTP, HTTPS and WebSockets (Boost.Beast). It runs in the caller's thread;
-// passwords are verified in another thread. Nothing queues for a browser: it gets the newest state
-// when its last message is through.
+// Serves the console over HTTP, HTTPS and WebSockets (Boost.Beast). Runs in the caller's thread;
+// passwords are verified in another thread. Messages for a browser never queue: the browser gets
+// the newest state when its last message has been sent.
 #pragma once
 
 #include <memory>
@@ -15,17 +15,17 @@ namespace ols::console {
 
 class WebServer {
  public:
-  // Throws std::runtime_error that names the address or the file.
+  // Throws std::runtime_error that names the address or the file that cannot be used.
   WebServer(const ConsoleConfig& config, land::TerrainFolder land,
             const std::optional<HandedOverSocket>& socket, WebApi& api, Console& console);
   ~WebServer();
 
   int port() const;
   void serve_for(double seconds);
-  // Sends what is new to every browser that can take it.
+  // Sends whatever is new to every browser whose last message has been sent.
   void pump();
 
-  struct Shared;  // shared by the connections
+  struct Shared;  // what all connections share
 
  private:
   std::unique_ptr<Shared> shared_;

@@ -1,5 +1,5 @@
-// The areas and incidents of a console: who may change them, their pictures and alarms, and what
-// must be written, sent and recorded. Pure.
+// The areas and incidents of a console, with their pictures and alarms. Carries out people's
+// requests, and says what must be stored, sent and recorded. Pure.
 #pragma once
 
 #include <cstdint>
@@ -19,29 +19,29 @@
 
 namespace ols::console {
 
-// What a person has requested. If it is refused, the answer says why in words.
+// A person's request to change the areas.
 struct AreaChange {
-  nlohmann::json area;  // the area to set; null: remove one
-  std::string name;     // of the area to remove
+  nlohmann::json area;  // the area to set; null: the request is to remove one
+  std::string name;     // name of the area to remove
 };
 struct IncidentJudgement {
   std::uint64_t incident = 0;
   Judgement verdict = Judgement::kOpen;
 };
 
-// How long stations record before and after the beginning of an incident; both 0: not at all.
+// What stations record of an incident: the time before and after its beginning; both 0: nothing.
 struct IncidentRecording {
   double before_s = 5.0, after_s = 15.0;
 };
 
-// What survives a restart.
+// The areas and incidents that survive a restart.
 struct KeptIncidents {
   std::vector<Area> areas;
-  bool may_change_areas = true;  // false: they could not be read
+  bool may_change_areas = true;  // false: the areas could not be read
   std::vector<Incident> incidents;
-  std::map<std::uint64_t, std::string> pictures;  // JPEG, by incident
-  std::uint64_t numbers = 0;                      // the highest number of an incident, readable or
-                                                  // not
+  std::map<std::uint64_t, std::string> pictures;  // JPEG, by the incident's number
+  std::uint64_t numbers = 0;                      // the highest number of any stored incident, even
+                                                  // if it cannot be read
 };
 
 inline constexpr std::size_t kMostPictureBytes = 1'000'000;
@@ -50,7 +50,7 @@ class IncidentBook {
  public:
   explicit IncidentBook(const IncidentRecording& recording) : recording_(recording) {}
 
-  // Call before anything else, with what was kept.
+  // Restores what was stored. Call before anything else.
   void resume(KeptIncidents kept, double now_s);
 
   // `minute_of_day`: in the time zone of this host.
@@ -58,7 +58,7 @@ class IncidentBook {
   // Call often. `newest` returns a station's newest picture; null: there is none.
   void turn(double now_s, const std::function<const Picture*(const std::string&)>& newest);
 
-  // Both return why the request is refused; empty: it is carried out.
+  // Both return why the request is refused; empty: it was carried out.
   Outcome change(const AreaChange& change);
   Outcome judge(const IncidentJudgement& verdict, const std::string& who, std::int64_t utime_us);
 
@@ -68,13 +68,13 @@ class IncidentBook {
 
   struct News {
     bool areas = false;
-    std::set<std::uint64_t> incidents;  // changed ones
-    std::set<std::uint64_t> pictures;   // new
+    std::set<std::uint64_t> incidents;  // incidents that were changed
+    std::set<std::uint64_t> pictures;   // incidents with a new picture
     std::vector<std::uint64_t> forgotten;
   };
   // What has changed since the last call.
   News take_news();
-  // Orders for the stations to record, since the last call.
+  // The orders to stations to record, since the last call.
   std::vector<wire::Order> take_recordings() { return std::exchange(recordings_, {}); }
 
  private:
@@ -88,7 +88,8 @@ class IncidentBook {
   News news_;
 };
 
-// A target whose position can be used, from the fusion's message; nullopt: it has no such position.
+// Converts the fusion's message to a target that can be watched. nullopt: the target has no
+// position, or is tentative.
 std::optional<WatchedTarget> watched(const ReceivedTarget& target);
 
 }  // namespace ols::console

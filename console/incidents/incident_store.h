@@ -4,9 +4,9 @@
 //   NUMBER.json   {"version": 1, "incident": {...}}: an incident, with its track
 //   NUMBER.jpg    its picture
 //
-// A file that cannot be read is named in an alarm. It is left as it is and never overwritten; its
-// contents are missing until it can be read. If the folder cannot be listed, nothing is written
-// into it: the numbers that its files use are unknown, and would be used again.
+// If a file cannot be read, an alarm names it. The file is never changed or overwritten, and its
+// contents are missing until a later start can read it. If the folder cannot be listed, nothing is
+// written into it, because the numbers of its files are unknown and might be used again.
 #pragma once
 
 #include <cstdint>
@@ -26,11 +26,11 @@ class IncidentStore {
 
   KeptIncidents read();
 
-  // Writes what is new. Retries each second what could not be written before. Call often. `now_s`:
-  // monotonic.
+  // Writes what is new, and tries again each second to write what could not be written. Call often.
+  // `now_s`: monotonic.
   void keep(const IncidentBook& book, const IncidentBook::News& news, double now_s);
 
-  // About what could not be read at the start, or is not written yet.
+  // Alarms about what could not be read at the start, or could not be written yet.
   std::vector<Alarm> alarms() const;
 
   static constexpr double kAgain_s = 1.0;
@@ -48,7 +48,7 @@ class IncidentStore {
   bool is_listed_ = true;
   std::vector<Alarm> unread_;
   IncidentBook::News unsaved_;
-  std::string why_unsaved_;  // empty: all is saved
+  std::string why_unsaved_;  // empty: everything is written
   double again_s_ = 0.0;
 };
 

@@ -1,6 +1,6 @@
-// The users' own maps, of pictures or of accuracy, in one folder. The folder is listed again at
-// each request. A damaged map is reported, and does not affect the others. Use it in one thread,
-// which may wait for a disk.
+// The users' own maps in one folder: maps made of pictures, and accuracy maps. The folder is listed
+// again at each request. A damaged map is reported, and does not affect the others. Use it in one
+// thread, which may wait for a disk.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace ols::console {
 
 class MapLibrary {
  public:
-  // Empty folder name: there are no maps.
+  // `folder`: empty if there are no maps.
   explicit MapLibrary(std::string folder) : folder_(std::move(folder)) {}
 
   // The answer to a browser: the list of maps, a tile, or an accuracy map.
@@ -26,11 +26,11 @@ class MapLibrary {
 
  private:
   struct Entry {
-    std::unique_ptr<TileStore> store;        // of pictures
-    std::unique_ptr<AccuracyFile> accuracy;  // or of accuracy; if both are null, the map cannot be
-                                             // used
+    std::unique_ptr<TileStore> store;        // a map of pictures; otherwise null
+    std::unique_ptr<AccuracyFile> accuracy;  // an accuracy map; if this is null, too, the map
+                                             // cannot be used
     std::string problem;                     // empty: no problem
-    std::int64_t changed_ns = 0;             // time of the file's last change
+    std::int64_t changed_ns = 0;             // time when the file was changed last
   };
   void look();
   void open(const std::string& name, std::int64_t changed_ns);

@@ -1,5 +1,6 @@
 // A map in an MBTiles file (github.com/mapbox/mbtiles-spec 1.3): an SQLite database with the tables
-// metadata and tiles; rows are counted from the south. Pictures only, no vector tiles.
+// metadata and tiles. Rows are counted from the south. Only maps of pictures can be read, no vector
+// tiles.
 #pragma once
 
 #include <sqlite3.h>
@@ -13,7 +14,7 @@ namespace ols::console {
 
 class Mbtiles : public TileStore {
  public:
-  // Throws std::runtime_error with the error.
+  // Throws std::runtime_error; the message says what is wrong.
   explicit Mbtiles(const std::string& path);
   const MapInfo& info() const override { return info_; }
   std::optional<std::string> tile(const TileAddress& address) override;

@@ -1,5 +1,6 @@
 // A map in a PMTiles archive (pmtiles_directory.h). The console reads the archive and serves its
-// tiles like those of other maps. So a browser needs neither file ranges nor a library.
+// tiles like those of any other map. Therefore a browser needs neither range requests nor a PMTiles
+// library.
 #pragma once
 
 #include <cstdio>
@@ -14,7 +15,7 @@ namespace ols::console {
 
 class Pmtiles : public TileStore {
  public:
-  // Throws std::runtime_error with the error.
+  // Throws std::runtime_error; the message says what is wrong.
   explicit Pmtiles(const std::string& path);
   const MapInfo& info() const override { return header_.info; }
   std::optional<std::string> tile(const TileAddress& address) override;
@@ -29,7 +30,8 @@ class Pmtiles : public TileStore {
   std::unique_ptr<std::FILE, Close> file_;
   PmtilesHeader header_;
   std::vector<PmtilesEntry> root_, leaf_;
-  std::uint64_t leaf_offset_ = 0;  // offset of leaf_, the leaf directory read last; 0: none
+  std::uint64_t leaf_offset_ = 0;  // position in the archive of leaf_, the leaf directory read
+                                   // last; 0: none was read
 };
 
 // Decompresses gzip. Throws std::runtime_error if the data are damaged or larger than `most`.

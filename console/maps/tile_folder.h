@@ -1,5 +1,5 @@
-// A map in a folder of pictures ZOOM/COLUMN/ROW.png (or .jpg, .jpeg, .webp), rows counted from the
-// north.
+// A map in a folder of pictures: ZOOM/COLUMN/ROW.png (or .jpg, .jpeg, .webp). Rows are counted from
+// the north.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ class TileFolder : public TileStore {
   std::optional<std::string> tile(const TileAddress& address) override;
 
  private:
-  std::string path_, suffix_;  // suffix: of the picture found last
+  std::string path_, suffix_;  // suffix_: that of the picture found last
   MapInfo info_;
 };
 

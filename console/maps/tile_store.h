@@ -1,5 +1,5 @@
-// A user's own map: square pictures in the Web Mercator tiling, by zoom level, column from the west
-// and row from the north.
+// A user's own map: square pictures (tiles) in Web Mercator projection, by zoom level, column from
+// the west and row from the north.
 #pragma once
 
 #include <array>
@@ -25,16 +25,17 @@ class TileStore {
  public:
   virtual ~TileStore() = default;
   virtual const MapInfo& info() const = 0;
-  // A picture that a browser can show; nullopt where the map has none. Throws std::runtime_error;
-  // the message says what is damaged.
+  // The bytes of a picture that a browser can show; nullopt if the map has no such tile. Throws
+  // std::runtime_error; the message says what is damaged.
   virtual std::optional<std::string> tile(const TileAddress& address) = 0;
 };
 
-// Whether the tiling has such a tile.
+// Whether zoom, column and row are within the tiling.
 bool is_address(const TileAddress& address);
-// "image/png" or similar, from a picture's first bytes; empty: browsers cannot show it.
+// The content type of a picture, such as "image/png", from the picture's first bytes; empty:
+// browsers cannot show it.
 std::string picture_type(const std::string& bytes);
-// Limits what a file states about itself to possible values.
+// Limits the values that a file states about itself to possible ones.
 MapInfo plausible(MapInfo info);
 
 }  // namespace ols::console

@@ -1,5 +1,5 @@
-// The frames kept by a station's recorder (docs/field-guide.md): event folders with frames.csv and
-// PNG files.
+// Reads the frames that a station's recorder has kept (docs/field-guide.md): folders of events with
+// frames.csv and PNG files.
 #pragma once
 
 #include <cstddef>
@@ -15,24 +15,24 @@ namespace ols::console {
 
 class RecordedFrames {
  public:
-  // Adds the events in a recorder's folder. Throws std::invalid_argument naming the folder. A
-  // damaged row or event is skipped and reported in problems().
+  // Adds the events in a recorder's folder. Throws std::invalid_argument naming the folder if it
+  // cannot be listed or has no event. A damaged row or event is skipped and reported in problems().
   void add(const std::string& station, const std::string& folder);
 
-  // The newest frame of a station at an instant. nullopt if that frame is more than kOld_us old, or
-  // was already given last time.
+  // The station's newest frame at this time. nullopt if the frame is older than kOld_us, or was
+  // returned by the last call as well.
   std::optional<Picture> newest(const std::string& station, std::int64_t utime_us);
-  // Allows the frames given last to be given again.
+  // Lets newest() return the same frames once more.
   void give_again() {
     for (auto& [station, frames] : stations_) frames.given_us = 0;
   }
-  // A list of {station, name, first_us, last_us, frames}.
+  // An array of {station, name, first_us, last_us, frames}.
   const Json& events() const { return events_; }
   const std::vector<std::string>& problems() const { return problems_; }
   std::vector<std::string> stations() const;
 
   static constexpr std::int64_t kOld_us = 1'000'000;
-  static constexpr std::size_t kMostFrames = 200'000;  // of all events
+  static constexpr std::size_t kMostFrames = 200'000;  // of all events together
   static constexpr std::size_t kMostFrameBytes = 64'000'000;
 
  private:
@@ -49,7 +49,7 @@ class RecordedFrames {
   std::size_t frames_ = 0;
 };
 
-// Width and height from the header of a PNG file; nullopt if it is no PNG file.
+// Width and height from the header of a PNG file; nullopt if the bytes are not a PNG file.
 std::optional<std::pair<int, int>> png_size(const std::string& png);
 
 }  // namespace ols::console

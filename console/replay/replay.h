@@ -1,7 +1,7 @@
-// Shows a recorded log on the console as if it happened now: plays, pauses, jumps. Meanwhile it
-// reads the whole log once, a little in each turn, for the timeline and for snapshots. A jump
-// rebuilds the state from the nearest earlier snapshot, and shows it when it is complete. It reads
-// no clock.
+// Shows a recorded log on the console as if everything happened now; can play, pause and jump.
+// Meanwhile it reads the whole log once, a little in each turn, to make the timeline and snapshots
+// of the state. A jump rebuilds the state from the nearest earlier snapshot, and shows the state
+// when it is complete. Replay reads no clock.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ class Replay {
   // Throws std::invalid_argument naming the file if it contains no message of a site.
   Replay(const std::string& log, RecordedFrames frames, Console& console);
 
-  // Call often: reads, plays, carries out viewers' requests.
+  // Call often: reads the log, plays, and carries out viewers' requests.
   void turn(double monotonic_s);
   std::string in_one_line() const;
   bool is_read() const { return is_scanned_; }  // whether the whole log was read once
   // What is wrong with the log and the frames so far, in words for a person; empty: no problem.
   std::string problem() const;
 
-  static constexpr int kScannedAtOnce = 1500;  // messages per turn; each takes some 20 us
+  static constexpr int kScannedAtOnce = 1500;  // messages per turn; each takes about 20 us
   static constexpr int kPlayedAtOnce = 1500;
 
  private:
@@ -37,7 +37,8 @@ class Replay {
   };
   struct Told {
     bool is_urgent = true;                      // viewers should receive it at once
-    std::uint64_t changes = ~std::uint64_t{0};  // of the timeline
+    std::uint64_t changes = ~std::uint64_t{0};  // Timeline::changes() when viewers were last sent
+                                                // the timeline
     double timeline_s = -1e9;
   };
   void obey();
@@ -47,7 +48,7 @@ class Replay {
   void show_frames();
   void tell();
   void tell_timeline();
-  // Processes the log up to an instant. False: there is more than one turn can process.
+  // Plays the log up to a time. False: that is more than one turn may process.
   bool catch_up(Console& console, std::int64_t until_us);
 
   const std::string log_;
@@ -56,7 +57,8 @@ class Replay {
   RecordedFrames frames_;
   Timeline timeline_;
   std::unique_ptr<Console> scanned_;   // the scanner's state
-  std::unique_ptr<Console> ahead_;     // the state that a jump rebuilds; null: no jump is under way
+  std::unique_ptr<Console> ahead_;     // the state that a jump is rebuilding; null: no jump is
+                                       // under way
   std::optional<BusMessage> waiting_;  // the player's next message
   bool is_scanned_ = false;
   double turned_s_ = -1.0;
