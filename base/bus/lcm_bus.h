@@ -64,7 +64,7 @@ class LcmBus {
 
   // True if nothing has arrived for some seconds, not even this connection's own self-test. An
   // interface that disappears takes the group membership with it, without an error. The connection
-  // then receives nothing more; only a new connection does.
+  // then receives nothing more. To receive again, make a new connection.
   bool is_deaf() const { return unanswered_ >= kUnanswered; }
 
   BusTraffic traffic() const;

@@ -1,5 +1,5 @@
-// The two clocks of a process. Only main programs and device code read them; everything else is
-// given the time.
+// The two clocks of a process. Only main programs, and code for devices, sockets and threads, read
+// them; pure code is given the time.
 #pragma once
 
 #include <cstdint>

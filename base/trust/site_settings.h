@@ -41,7 +41,7 @@ using SettingsCheck = std::function<void(const SiteSettings&, const std::string&
 // ConfigError for keys that are not settings.
 std::string sign_settings(const SiteSettings& head, const std::string& wanted,
                           const std::string& name, const SigningKey& root);
-// Throws ConfigError if this root has not signed them as settings.
+// Throws ConfigError if this root has not signed the text as settings.
 SiteSettings read_settings(const std::string& text, const std::string& name, const PublicKey& root);
 // Reads a person's text, which may have geoid and [station] only. Throws ConfigError.
 SiteSettings read_wanted_settings(const std::string& wanted, const std::string& name);

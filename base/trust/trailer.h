@@ -1,5 +1,5 @@
-// The signed trailer behind an LCM message, 96 bytes. LCM's own readers ignore bytes behind a
-// message, so its tools and logs keep working. Integers are big-endian, as LCM's.
+// The trailer after an LCM message, with its signature: 96 bytes. LCM's own readers ignore bytes
+// after a message, so that LCM's tools and logs keep working. Integers are big-endian, as in LCM.
 //
 //   key id 8 | audience 8 | site tag 8 | Ed25519 signature 64 | version 1 | flags 1 | 0 0 | "OLST"
 //

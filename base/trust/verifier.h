@@ -81,7 +81,7 @@ class Verifier {
   struct Known {
     Member member;
     std::vector<RateLimit> rates;  // one per rule
-    // By rule, whether it is for stops, and station: the limits of commands per station.
+    // The limits per station. Key: index of the rule, whether the limit is for stops, station.
     std::map<std::tuple<std::size_t, bool, std::string>, RateLimit> station_rates{};
   };
   struct Judged;
