@@ -2,9 +2,9 @@
 //
 // An epoch is a revision number of the store of owners. Revisions grow with every change of any
 // record. Of two commands, the one with the greater epoch therefore comes from the later owner, and
-// the commands of an owner that was replaced are refused even before that owner knows. Because
-// epochs are not signed, impossible epochs are refused, and a target's epoch is forgotten if no
-// command about the target passes for a minute.
+// the commands of an owner that was replaced are refused even before that owner learns of it.
+// Because epochs are not signed, impossible epochs are refused, and a target's epoch is forgotten
+// if no command about the target passes for a minute.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct Claim {
 
 class EpochFence {
  public:
-  // An owner leads a station while it sends commands to it. If no command has passed for this long,
-  // nobody leads the station, and an owner with a lower epoch may take over.
+  // An owner leads a station as long as it sends the station commands. If no command has passed for
+  // this long, nobody leads the station, and an owner with a lower epoch may take over.
   static constexpr double kSilence_s = 2.0;
   static constexpr double kForgotten_s = 60.0;
   // What epochs are possible: revisions count the renewals of all targets, so that the next epoch

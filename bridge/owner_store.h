@@ -21,9 +21,9 @@ namespace ols::bridge {
 
 class OwnerStore {
  public:
-  // Called in these two threads; answer() also in the thread that calls ask(). Each is as the
-  // method of Ownership that it is passed to: learn(), learn_gone(), learn_wish(), answer(),
-  // feel_store().
+  // Called in these two threads; `answer` also in the thread that calls ask(). Each function has
+  // the meaning and the arguments of a method of Ownership: learn(), learn_gone(), learn_wish(),
+  // answer(), feel_store().
   struct Ears {
     std::function<void(const std::string& target, const OwnerRecord&, std::uint64_t)> learn;
     std::function<void(const std::string& target)> gone;

@@ -67,13 +67,13 @@ class Ownership {
 
   void hear(const Track& track, const Now& now);
   void hear(const TargetReport& sighting, const Now& now);
-  // Tells that the store now has this record of a target.
+  // Call when the store reports its new record of a target.
   void learn(const std::string& target, const OwnerRecord& record, std::uint64_t revision,
              const Now& now);
-  // Tells that the store has no record of the target any more.
+  // Call when the store reports that it has no record of the target any more.
   void learn_gone(const std::string& target, const Now& now);
-  // Tells that the fusion `by` wants to own the target. A store may repeat an old wish, which is
-  // recognised by its revision.
+  // Call when the store reports that the fusion `by` wants to own the target. A store may repeat an
+  // old wish, which is recognised by its revision.
   void learn_wish(const std::string& target, const std::string& by, std::uint64_t revision,
                   const Now& now);
   // Takes the store's answer to a request of step(); wishes have no answer. Before answer() reports
