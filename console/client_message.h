@@ -68,13 +68,12 @@ struct CueRequest {
   wire::CueOrder order;
   std::optional<std::int64_t> heard_utime_us;  // as for a command
 };
-// Somebody acknowledges an alarm, and thereby says that he handles it. `event`: the alarm's number
-// in the list of events.
+// Acknowledges an alarm: the person handles it. `event`: the alarm's number in the list of events.
 struct AcknowledgeRequest {
   std::int64_t number = 0;
   std::uint64_t event = 0;
 };
-// The operators' name for a target; empty: the name that the fusion gives it.
+// Sets the operators' name for a target; empty: the name that the fusion gives it.
 struct NameRequest {
   std::int64_t number = 0;
   std::string target;

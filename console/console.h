@@ -53,7 +53,7 @@ class Console {
   void receive(Picture picture);
   void receive(ReceivedProcedure procedure);
 
-  // Takes an order of somebody from a recording, for the list of events in a replay.
+  // Takes an order that was found in a recording, for the list of events in a replay.
   void receive(const wire::Order& order, const Now& now);
   // Takes a reply to an order. `reply.order` has boot id 0 for an order from turn(); in a replay,
   // it is the id in the log.
@@ -78,7 +78,7 @@ class Console {
   // Restores the areas and incidents that were stored. Call before anything else.
   void resume(KeptIncidents kept, const Now& now);
   const IncidentBook& incidents() const { return incidents_; }
-  // What the last call of turn() has found to be stored and sent about incidents.
+  // What the last call of turn() has changed in the incidents, to be stored and sent.
   const IncidentBook::News& incident_news() const { return incident_news_; }
   void incident_trouble(const std::vector<Alarm>& alarms) { incident_trouble_ = alarms; }
 
@@ -166,7 +166,7 @@ class Console {
   void show_areas();
   void show_incident(const Incident& incident);
   void look_at_own_alarms(const Now& now);
-  // Ends a request that needs no answer of a station: adds its event, and answers the viewer.
+  // Ends a request that needs no answer from a station: adds its event, and answers the viewer.
   void conclude(std::uint64_t id, std::int64_t number, const Alarm& what, const Now& now);
   // Why this viewer may not change anything; empty: the viewer may.
   Outcome change_refusal(std::uint64_t id) const;

@@ -1,7 +1,7 @@
 // What a browser was sent but has not processed yet: the site's state, and pictures of stations. At
-// most one state, and one picture of each station, is under way. Otherwise messages would pile up
-// in a browser that processes them more slowly than they arrive. A slow browser gets fewer
-// messages, but no old ones. Pure.
+// most one state and one picture of each station are under way. Otherwise messages would pile up in
+// a browser that processes them more slowly than they arrive. A slow browser gets fewer messages,
+// but no old ones. Pure.
 #pragma once
 
 #include <set>
