@@ -21,9 +21,9 @@ struct InputRules {
   double horizontal_sd_m = 50.0, vertical_sd_m = 100.0;
   double pressure_height_sd_m = 300.0;  // error of a pressure altitude that is used as a height
                                         // above the ellipsoid
-  double velocity_sd_m_s = 3.0;         // error of a velocity that the source states
-  double speed_sd_m_s = 15.0;           // 1-sigma of each axis of a velocity that the source does
-                                        // not state, taken as 0
+  double velocity_sd_m_s = 3.0;         // error of a stated velocity whose error is not stated
+  double speed_sd_m_s = 15.0;           // 1-sigma of each axis if the source states no velocity,
+                                        // which is then taken as 0
 };
 
 // A complete cue: all values are finite.
@@ -60,8 +60,8 @@ class LiveCues {
     std::int64_t until_us = 0;
   };
   void judge(std::size_t input, const Report& report, std::int64_t now_us);
-  // Removes expired cues, and cues whose time is in the future. Such cues remain if the host's
-  // clock is set back.
+  // Removes expired cues, and cues whose time is in the future. Cues from the future are left over
+  // when the host's clock is set back.
   void forget(std::int64_t now_us);
   bool is_full(std::size_t input) const;
   void refuse(std::size_t input, const Refused& refused);
