@@ -17,7 +17,7 @@ using Outcome = Alarm;
 // reason; empty: the reason has no sentence.
 std::string_view refusal_sentence(std::string_view reason);
 // As refusal_sentence(), but returns the reason itself if it has no sentence. `of`: a prefix of the
-// reason, such as "bridge_", for programs whose reasons have the same names as others.
+// reason, such as "bridge_", for a program whose reasons have the same names as another program's.
 std::string refusal_words(const std::string& reason, const std::string& of = {});
 // "SLEW refused: it came too late; ...".
 std::string refused_in_words(const std::string& what, const std::string& reason);
