@@ -21,8 +21,9 @@ struct SiteContext {
 
 enum class MessageKind { kTarget, kStation, kLine };
 
-// Each returns nullopt if the message is another one or cannot be used. A target is used if it has
-// a position or has ended; the place of an ended target is unknown (not finite).
+// Each of these functions returns nullopt if the message is of another kind or cannot be used. A
+// target is used if it has a position or has ended; the place of an ended target is unknown (not
+// finite).
 std::optional<Target> target_from(const BusMessage& message, const SiteContext& site);
 std::optional<Station> station_from(const BusMessage& message, const SiteContext& site);
 std::optional<Line> line_from(const BusMessage& message, const SiteContext& site);

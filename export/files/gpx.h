@@ -1,6 +1,6 @@
-// GPX 1.1: a track for each target, a waypoint for each station. Heights are above sea level; the
-// geoid's height is written with each. The format has no fields for uncertainties, and none for
-// lines of sight. Pure.
+// GPX 1.1: a track for each target, a waypoint for each station. Heights are above sea level; each
+// point also states the height of the geoid. The format has no fields for uncertainties, and none
+// for lines of sight. Pure.
 #pragma once
 
 #include <string>

@@ -8,7 +8,7 @@
 //   PREFIX/targets          every target
 //   PREFIX/target/SLOT      the target in this slot, retained; {"state": "none"} while it is free,
 //                           repeated before it becomes stale
-//   PREFIX/station/NAME     retained
+//   PREFIX/station/NAME     the status of the station, retained
 //   PREFIX/line/NAME        the station's line of sight
 //   PREFIX/incidents        every target in a watched area, each second and when the incident
 //                           changes

@@ -24,8 +24,8 @@ std::string sapient_detection(const SapientSettings& settings, const Target& tar
 std::string sapient_task_refusal(const SapientSettings& settings, const std::string& task_id,
                                  const std::string& to, std::int64_t utime_us);
 
-// The types of detection information that ols-export sends begin with this text. By it, ols-cue
-// recognises a detection from ols-export, and does not take it for a target of another system.
+// The types of detection information that ols-export sends begin with this text. ols-cue checks for
+// it, so that it does not take a detection from ols-export for a target of another system.
 inline constexpr const char* kSapientOwn = "ols.";
 
 }  // namespace ols::exports
