@@ -58,7 +58,7 @@ struct GroundHit {
 class HorizonMap {
  public:
   // `camera`: the camera's centre. Throws std::invalid_argument if the ground at the camera is
-  // unknown, or if it is above the camera by more than three of its sigmas.
+  // unknown, or lies above the camera by more than three of its sigmas.
   HorizonMap(const Surface& surface, const Geodetic& camera, const HorizonMapConfig& config = {});
 
   // nullopt if the land in that direction is unknown.

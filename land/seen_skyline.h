@@ -19,7 +19,7 @@ namespace ols::land {
 struct SeenCrest {
   double elevation_rad = 0.0;
   double sd_rad = 0.0;  // 1-sigma
-  // Below the elevation, everything at this horizontal distance or beyond is hidden. 0: the
+  // Below elevation_rad, everything at this horizontal distance or beyond is hidden. 0: the
   // pictures do not change what the map hides.
   double hides_from_m = 0.0;
   // Whether pictures and map differ by more than their errors. If so, the elevation is that of the
@@ -55,10 +55,10 @@ class SeenSkyline {
   // The skyline in the nearest column that has been seen, if one is within 0.1 degrees; otherwise
   // nullopt.
   std::optional<SeenCrest> at(double azimuth_rad) const;
-  // The elevation below which a point at `distance_m` is hidden. `model`: the same according to the
-  // map, HorizonMap::highest_before(). If the azimuth's own column has not been seen, a
-  // neighbouring column can raise this elevation but not lower it, because the edge of a house may
-  // be between them.
+  // The elevation below which a point at `distance_m` is hidden. `model`: the same elevation
+  // according to the map, HorizonMap::highest_before(). If the azimuth's own column has not been
+  // seen, a neighbouring column can raise this elevation but not lower it, because the edge of a
+  // house may be between them.
   Skyline hiding(const Skyline& model, double azimuth_rad, double distance_m) const;
 
  private:

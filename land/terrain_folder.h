@@ -22,8 +22,8 @@ struct TerrainFolder {
 };
 
 // Throws std::runtime_error with the file and the reason: the file is missing, damaged, of the
-// wrong length or of another version. The checksum of a large grid takes seconds. When a stop is
-// requested of `stop`, no further grid is begun, and std::runtime_error says so.
+// wrong length or of another version. The checksum of a large grid takes seconds. If a stop is
+// requested through `stop`, no further grid is begun, and std::runtime_error says so.
 TerrainFolder read_terrain_folder(const std::string& path, const std::stop_token& stop = {});
 
 // Reads the folder that a configuration names in [land]; empty: there is no terrain. Throws
@@ -33,7 +33,7 @@ TerrainFolder read_configured_land(const std::string& folder);
 // the files of heights, but not their checksums. Throws ConfigError in the same way.
 Manifest check_configured_land(const std::string& folder);
 
-// One grid to write; write_terrain_folder() sets `file` and `sha256` of `form`.
+// One grid to write. write_terrain_folder() fills the fields `file` and `sha256` of `form`.
 struct NewGrid {
   GridFile form;
   std::vector<float> heights_m;  // in the order of HeightGrid
