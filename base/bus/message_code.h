@@ -1,4 +1,4 @@
-// Messages state a state as a small number. Converts such numbers to enumerations with the same
+// In messages, a state is a small number. Converts such numbers to enumerations with the same
 // values, or to words from a list in the order of the numbers.
 #pragma once
 

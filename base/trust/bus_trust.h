@@ -31,7 +31,7 @@ struct Self {
   bool is_station = false;   // commands to this station must name `boot_id`
   bool commands = false;     // shows and commands stations; therefore it accepts the statuses of
                              // stations with a wrong clock, too
-  bool tells_list = false;   // publishes the trust list
+  bool tells_list = false;   // publishes the trust list and the site's settings
   bool keeps_marks = false;  // its marks against replays survive a restart
   SettingsCheck settings{};  // checks the site's settings; empty: the process does not use the
                              // settings, it only passes them on
@@ -84,7 +84,7 @@ class BusTrust {
   std::optional<std::string> list_to_tell(double now_s);
   std::optional<std::string> settings_to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
-  // The list in force and its number, to be kept beside the logs.
+  // The list in force and its number. A logger keeps them beside its logs.
   std::string list_text() const;
   std::int64_t list_number() const;
   // The stations enrolled by the list in force.

@@ -20,8 +20,8 @@ ols_msg::site_settings_t to_settings_message(const std::string& settings, std::i
 // message.
 std::optional<std::string> list_from(Bytes payload);
 std::optional<std::string> settings_from(Bytes payload);
-// Whether a station would read the payload as an order to stop. Any schema number is accepted, as
-// in the station.
+// Whether a station would read the payload as an order to stop. Accepts any schema number, as the
+// station does.
 bool is_stop(Bytes payload);
 
 }  // namespace ols::trust

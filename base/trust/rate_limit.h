@@ -1,4 +1,5 @@
-// A token bucket: `rate_hz` per second on average, with bursts of one second's worth. Pure.
+// A token bucket: lets `rate_hz` messages per second pass on average, in bursts of at most one
+// second's worth. Pure.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@ class RateLimit {
  public:
   explicit RateLimit(double rate_hz) : rate_hz_(rate_hz), tokens_(rate_hz) {}
 
-  // Whether one more message may pass now. If it does, call spend(). `now_s`: monotonic.
+  // Whether one more message may pass now. If it passes, call spend(). `now_s`: monotonic.
   bool has(double now_s) {
     if (seen_s_ >= 0.0) {
       tokens_ = std::min(rate_hz_, tokens_ + std::max(0.0, now_s - seen_s_) * rate_hz_);
