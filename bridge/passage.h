@@ -37,7 +37,7 @@ inline constexpr const char* kOwnerHeader = "Ols-Owner";
 
 enum class Role {
   kSite,    // sends its stations' messages, takes commands for them
-  kRegion,  // takes stations' messages for its fusion, sends its targets and commands
+  kRegion,  // takes stations' messages for its fusion, sends the fusion's targets and commands
 };
 
 // Why a message does not pass.

@@ -42,8 +42,8 @@ struct Content {
   std::string station, command;
 };
 std::optional<Content> content_of(std::string_view channel);
-// The channel on the bus. It is the one on which the station sent, because the signature covers the
-// channel.
+// The bus channel for messages of this subject. It is always the channel on which they were sent,
+// because their signatures cover the channel.
 std::string channel_of(const Subject& subject);
 
 // A selection of stations: "REGION.SITE.STATION", each part a name or *.

@@ -4,9 +4,9 @@
 //
 // An owner renews its record by compare-and-set. A fusion that takes over the target does the same;
 // therefore only one of the two succeeds. The owner counts its lease from the moment before it
-// sends a renewal, and ends it early. Any other fusion counts the lease from the moment when it
-// receives the renewal. Two fusions therefore never hold the lease of one target at the same
-// instant, whatever their clocks show.
+// sends a renewal, and lets the lease end early. Any other fusion counts the lease from the moment
+// when it receives the renewal. Two fusions therefore never hold the lease of one target at the
+// same instant, whatever their clocks show.
 //
 // While the store does not answer, an owner goes on without a lease, and marks each message as
 // unconfirmed. If the store answers nobody, no other fusion can take the target. If only the owner
@@ -126,7 +126,7 @@ class Ownership {
     bool is_doubted = false;      // another fusion seems to have taken it; the store's next answer
                                   // decides
     std::uint64_t epoch = 0;      // if owned
-    double held_until_s = -1e9;   // if owned: its lease
+    double held_until_s = -1e9;   // if owned: end of the lease
     double doubled_since_s = -1;  // if owned: since when another fusion has a record of the same
                                   // target, too; negative: it has none
   };
