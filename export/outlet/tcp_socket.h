@@ -1,4 +1,4 @@
-// A TCP connection. Each call has a time limit.
+// A TCP connection. Each call has a time limit, except for looking up a name.
 #pragma once
 
 #include <string>
