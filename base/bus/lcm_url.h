@@ -13,7 +13,8 @@ namespace ols {
 struct BusAddress {
   std::optional<sockaddr_in> group;      // nullopt: within this process
   std::string name;                      // of a memq:// bus; empty: a bus of this connection alone
-  int ttl = 0;                           // most hops of a datagram; 0: it does not leave this host
+  int ttl = 0;                           // maximum hops of a datagram; 0: it does not leave this
+                                         // host
   int receive_buffer_bytes = 8'388'608;  // as requested; the kernel grants at most
                                          // net.core.rmem_max
 };

@@ -30,7 +30,7 @@ struct LogNeedsMore {
   std::size_t bytes = 0;
 };
 
-inline constexpr std::size_t kMostRecordBytes = 4'000'000;  // the most data that a record may have
+inline constexpr std::size_t kMostRecordBytes = 4'000'000;  // limit of a record's data
 
 std::variant<LogRecord, LogGarbage, LogNeedsMore> parse_log_record(
     std::span<const std::uint8_t> bytes);

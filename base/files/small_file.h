@@ -1,4 +1,4 @@
-// Reads a small file. Never blocks, even if another program has replaced the file by a pipe.
+// Reads a small file. Never blocks, even if another program has replaced the file with a pipe.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace ols {
 
-// The content of a plain file. Throws std::system_error naming the file if it does not exist,
-// cannot be read, is no plain file (reading a pipe would block) or is larger than `most_bytes`.
+// The content of a plain file. Throws std::system_error naming the file if the file does not exist,
+// cannot be read, is not a plain file (reading a pipe would block) or is larger than `most_bytes`.
 std::string read_small_file(const std::string& path, std::size_t most_bytes);
 
 }  // namespace ols

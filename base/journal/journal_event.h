@@ -23,13 +23,13 @@ struct JournalEvent {
 // Returns "NAME=value" texts, as the journal takes them. Empty fields are left out.
 std::vector<std::string> journal_fields(const JournalEvent& event);
 
-// A lost connection to the bus.
+// Events for a lost connection to the bus, and for a new connection.
 JournalEvent bus_lost_event(const std::string& why);
 JournalEvent bus_connected_event(const std::string& url);
-// An alarm of a program. The event is about the station that the alarm's parameters name; if they
+// An event for a program's alarm. It is about the station that the alarm's parameters name; if they
 // name none, about a part of the program. begins: false if the alarm ends.
 JournalEvent alarm_event(const Alarm& alarm, bool begins);
-// An alarm of a station about one of its parts.
+// An event for a station's alarm, about one of the station's parts.
 JournalEvent station_alarm_event(const Alarm& alarm, bool begins);
 
 }  // namespace ols

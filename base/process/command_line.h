@@ -25,7 +25,8 @@ inline void flush_output() {
   throw std::system_error(errno == 0 ? EIO : errno, std::generic_category(), "standard output");
 }
 
-// A check of numbers, because CLI::Range accepts NaN.
+// A check for numbers: returns an error for NaN and infinity, otherwise an empty text. CLI::Range
+// accepts NaN.
 inline std::string refuse_not_finite(const std::string& text) {
   double value = 0.0;
   const bool finite = !CLI::detail::lexical_cast(text, value) || std::isfinite(value);

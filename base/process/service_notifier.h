@@ -13,7 +13,7 @@ class ServiceNotifier {
 
   // The process is ready. `status`: the line that `systemctl status` shows.
   void ready(const std::string& status);
-  // Replaces the status line, for example by the active alarms.
+  // Replaces the status line, for example with the active alarms.
   void status(const std::string& text);
   // Call at each turn of the control loop, and nowhere else: if the loop hangs, the watchdog must
   // receive nothing more. Sends at most four times per watchdog interval. `now_s`: CLOCK_MONOTONIC.

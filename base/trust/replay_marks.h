@@ -30,8 +30,8 @@ class ReplayMarks {
   bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
   // As is_replayed(), but false for a boot that is not remembered.
   bool is_heard(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Call only for a verified message that is no replay. Then only enrolled keys have streams, and
-  // their number is limited.
+  // Call only for a verified message that is not a replay. Then only enrolled keys have streams,
+  // and their number is limited.
   void note(const KeyId& key, const std::string& channel, const MessageHead& head);
 
   // The marks as text for a restart, one line per boot. read() ignores invalid lines, and returns

@@ -47,7 +47,7 @@ class Verifier {
  public:
   struct Config {
     std::string station{};     // this process's station, to which commands must name this boot;
-                               // empty: the process is no station
+                               // empty: the process is not a station
     std::int64_t boot_id = 0;  // of this process
     std::int64_t clock_tolerance_us = 30'000'000;
     // For a process that shows and commands stations, so that it can see and stop a station with a
