@@ -1,10 +1,10 @@
 // Decides which owner's commands may reach a station: those with the greatest epoch. Pure.
 //
 // An epoch is a revision number of the store of owners. Revisions grow with every change of any
-// record. Of two commands, the one with the greater epoch therefore comes from the later owner, and
-// the commands of an owner that was replaced are refused even before that owner learns of it.
-// Because epochs are not signed, impossible epochs are refused, and a target's epoch is forgotten
-// if no command about the target passes for a minute.
+// record. Of two commands, the one with the greater epoch therefore comes from the later owner. The
+// commands of an owner that was replaced are refused, even before that owner learns of its
+// replacement. Because epochs are not signed, impossible epochs are refused, and a target's epoch
+// is forgotten if no command about the target passes for a minute.
 #pragma once
 
 #include <cstdint>

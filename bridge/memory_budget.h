@@ -1,5 +1,5 @@
-// Limits of the memory for waiting messages. The sum of these limits, the program itself and its
-// tables of names must stay below the MemoryMax of systemd/units/ols-bridge.service;
+// Limits of the memory for waiting messages. These limits, the program itself and its tables of
+// names together must stay below MemoryMax in systemd/units/ols-bridge.service;
 // tests/lint/test_units.py checks this.
 #pragma once
 

@@ -14,8 +14,8 @@ class StationPlaces {
  public:
   static constexpr double kSettled_s = 60.0;  // after this much silence, a station's name is free
                                               // again
-  // Most stations of one site, and of all sites: invented names of one site leave room for the
-  // others.
+  // Limits of the number of stations, per site and for all sites together: invented names of one
+  // site leave room for the other sites.
   static constexpr std::size_t kMostOfSite = 2'000, kMost = 20'000;
 
   struct Place {
