@@ -117,7 +117,7 @@ class Console {
   // The viewers' requests for the replay since the last call.
   std::vector<ReplayRequest> take_replay_requests() { return std::exchange(replay_.requests, {}); }
   Moment moment() const;
-  // Replaces the whole state by this moment, and shows it to every viewer.
+  // Replaces the whole state with this moment, and shows it to every viewer.
   void show(const Moment& moment);
   Json events_since(Revision revision) const { return site_.events_since(revision); }
   Revision revision() const { return site_.revision(); }

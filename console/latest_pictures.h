@@ -34,7 +34,7 @@ class LatestPictures {
 
   // The newest single picture of a station; null: it has none.
   const Picture* newest(const std::string& station) const;
-  // newest() returns the newest single picture of each station. show() replaces all pictures by
+  // newest() returns the newest single picture of each station. show() replaces all pictures with
   // these.
   std::map<std::string, Picture> newest() const;
   void show(const std::map<std::string, Picture>& pictures);

@@ -67,11 +67,10 @@ class PendingOrders {
   // not reported, because an old log may contain no answers.
   std::vector<Verdict> finished(double now_s);
 
-  static constexpr std::size_t kMostPending = 500;  // without stops, of which each station has at
-                                                    // most one
-  static constexpr std::size_t kMostTickets = 64;   // most tickets of one stop
-  static constexpr std::size_t kMostSent = 500;     // most repetitions of one order that are
-                                                    // remembered
+  static constexpr std::size_t kMostPending = 500;  // not counting stops, of which each station has
+                                                    // at most one
+  static constexpr std::size_t kMostTickets = 64;   // limit of tickets per stop
+  static constexpr std::size_t kMostSent = 500;     // limit of remembered repetitions per order
   static constexpr double kStopPatience_s = 3.0;
   static constexpr double kHold_s = 1.0;
 

@@ -68,7 +68,7 @@ class SiteState {
   Json events_since(Revision since) const { return events_.since(since); }
   // Whether this is the boot id of the fusion whose targets are shown.
   bool counts_fusion(std::int64_t boot_id) const { return boot_id == fusion_boot_; }
-  // The numbers of stations, of silent stations and of targets, and whether there is a fusion.
+  // How many stations, silent stations and targets there are, and whether there is a fusion.
   Json counts() const;
   std::vector<std::string> station_ids() const { return stations_.ids(); }
   bool knows(const std::string& station) const { return fields_of(station) != nullptr; }
@@ -79,7 +79,7 @@ class SiteState {
   static constexpr double kStationStale_s = 2.5;  // five status intervals
   static constexpr double kTargetStale_s = 1.5;
   static constexpr double kFusionGone_s = 1.5;
-  static constexpr std::size_t kMostAlarms = 32;  // most alarms of one station
+  static constexpr std::size_t kMostAlarms = 32;  // limit per station
   static constexpr std::size_t kMostStations = 200, kMostTargets = 500, kMostTrailPoints = 600;
   static constexpr std::size_t kMostAreas = 50, kMostIncidents = 200;
 
