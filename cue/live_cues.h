@@ -45,7 +45,7 @@ struct InputCounts {
 
 class LiveCues {
  public:
-  // `most`: the most cues of all inputs together; each input may have an equal share.
+  // `most`: the maximum number of cues of all inputs together; each input may have an equal share.
   LiveCues(std::vector<InputRules> inputs, int most);
 
   void take(std::size_t input, const Readings& readings, std::int64_t now_us);
@@ -68,7 +68,7 @@ class LiveCues {
 
   std::vector<InputRules> inputs_;
   std::vector<InputCounts> counts_;
-  std::size_t most_;  // most cues of each input
+  std::size_t most_;  // maximum number of cues of each input
   std::map<std::string, Kept> kept_;
 };
 
