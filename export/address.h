@@ -12,7 +12,7 @@ struct Address {
   std::string host;  // udp: an IP address; otherwise a name or an address
   int port = 0;
   std::string path;       // file
-  int ttl = 1;            // udp, multicast: most hops of a datagram
+  int ttl = 1;            // udp, multicast: maximum hops of a datagram
   std::string interface;  // udp, multicast: address of the interface to send from; empty: the
                           // system's routes decide
 };

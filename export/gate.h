@@ -31,7 +31,8 @@ class Gate {
   // The rate does not apply to incidents, because there are few.
   bool passes(const Incident& incident) const;
 
-  // The least belief with which a line of sight passes; the fusion has the same limit for bearings.
+  // A line of sight passes only with at least this belief; the fusion has the same limit for
+  // bearings.
   static constexpr double kLeastBelief = 0.5;
 
  private:

@@ -23,8 +23,8 @@ class PresentTargets {
   std::size_t size() const { return live_.size(); }
 
   static constexpr double kSilent_s = 10.0;
-  // Most present targets, against forged messages with invented numbers. Beyond this limit, the
-  // oldest target is ended.
+  // Limit of the number of present targets, because forged messages may contain invented numbers.
+  // Beyond the limit, the oldest target is ended.
   static constexpr std::size_t kMost = 2000;
 
  private:

@@ -50,8 +50,8 @@ class MqttEncoder : public Encoder {
 std::string site_prefix(const MqttSettings& settings, const std::string& site);
 // The topic of the site's availability, on which the broker also publishes the last will.
 std::string status_topic(const MqttSettings& settings, const std::string& site);
-// Makes a name fit for one level of a topic: replaces all characters but letters, digits, - and _
-// by "_".
+// Makes a name fit for one level of a topic: replaces all characters except letters, digits, - and
+// _ with "_".
 std::string topic_word(const std::string& name);
 
 }  // namespace ols::exports

@@ -9,7 +9,7 @@ struct MqttSettings {
   std::string prefix = "ols";
   std::string discovery_prefix = "homeassistant";
   double stale_s = 30.0;  // an entity without news for this long is unavailable; 0: never
-  int slots = 8;          // most targets that have an entity of their own at the same time
+  int slots = 8;          // number of targets that can have an entity of their own at the same time
 };
 
 }  // namespace ols::exports
