@@ -50,8 +50,9 @@ struct Skyline {
 struct GroundHit {
   double range_m = 0.0;
   double elevation_sd_rad = 0.0;  // 1-sigma of the land there
-  // How fast the land's elevation grows with range there [rad/m]; 0 on a crest. The 1-sigma of the
-  // range is the combined 1-sigma of the elevations of land and line of sight, divided by this.
+  // How fast the land's elevation grows with range there [rad/m]; 0 on a crest. To get the 1-sigma
+  // of the range, combine the 1-sigmas of both elevations (land and line of sight), and divide by
+  // this.
   double rise_rad_per_m = 0.0;
 };
 
