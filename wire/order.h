@@ -47,8 +47,8 @@ struct Order {
   double pan_rad = 0.0, tilt_rad = 0.0;
   // kRate: rates of the PTU's angles, for the lease (lease_s()).
   double pan_rate_rad_s = 0.0, tilt_rate_rad_s = 0.0;
-  // kLens: positions, or rates for the lease, as lens_rates says. NaN leaves the axis as it is
-  // (lcmtypes/lens_command_t.lcm).
+  // kLens: positions of the axes, or rates for the lease if lens_rates is true. NaN leaves an axis
+  // as it is (lcmtypes/lens_command_t.lcm).
   bool lens_rates = false;
   double zoom = kNaN, focus = kNaN, iris = kNaN;
   // kRecord: how much to keep from before and after now, and the name of the recording.
@@ -77,8 +77,8 @@ struct Reply {
   bool is_stopped = false;  // whether the station is stopped after the order
 };
 
-// The lease of most orders: how long a station obeys an order after it was made. The sender waits
-// for the answer as long.
+// How long a station obeys an order after it was made, and how long the sender waits for the
+// answer. A joystick's order has a shorter lease.
 inline constexpr double kLease_s = 2.0;
 // Two status intervals, and some reserve: every station sends a status within this time.
 inline constexpr double kTwoIntervals_s = 1.2;

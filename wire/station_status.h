@@ -11,8 +11,8 @@
 
 namespace ols::wire {
 
-// The most stations that a program keeps. Limits the memory that forged statuses with invented
-// names can use.
+// The maximum number of stations that a program keeps. It limits the memory that forged statuses
+// with invented names can use.
 inline constexpr std::size_t kMostStationsHeard = 2000;
 
 // Returns nullopt if the message is not a status, or does not name the station of its channel. The
