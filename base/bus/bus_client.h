@@ -29,7 +29,7 @@ class BusClient {
   void connect(double now_s, double wait_s);
   // With a connection: handles the messages that have arrived, waits at most wait_ms for the first,
   // and closes the connection if it no longer receives anything. Without a connection: tries to
-  // connect, then waits wait_ms. `now_s`: monotonic.
+  // connect, and waits wait_ms if that fails. `now_s`: monotonic.
   void turn(double now_s, int wait_ms);
 
   // The two parts of turn(), for a caller with work between them. Both need a connection.

@@ -18,8 +18,8 @@ enum class Role {
   kOperator,   // sends commands and procedures
   kSimulator,  // sends the simulator's own messages
   kCue,        // sends cues from outside
-  kListener,   // only receives, and passes on texts that the root has signed: ols-logger,
-               // ols-doctor
+  kListener,   // only receives, and passes on texts that the root has signed; for example
+               // ols-logger
   kUnknown,    // a role that this program does not know, from a newer trust list; may send nothing
 };
 const char* to_string(Role role);
