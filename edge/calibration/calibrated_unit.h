@@ -30,8 +30,8 @@ class CalibratedUnit {
   }
   // The angles that the unit reports when it points in the direction of the ideal angles
   // `corrected`, after it has moved there directly from `here`, which it reached by `approach`.
-  // `corrected` must include whole turns of the pan axis, because the unit approaches angles a whole
-  // turn apart from different sides.
+  // `corrected` must include whole turns of the pan axis, because the unit approaches angles a
+  // whole turn apart from different sides.
   PanTilt reported(const PanTilt& corrected, const PanTilt& here,
                    const mount::Approach& approach) const;
 
