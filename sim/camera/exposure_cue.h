@@ -1,5 +1,5 @@
-// The events for which the exposing thread of a simulated camera waits: an instant, a trigger, a
-// client, the end. Call all methods from any thread.
+// Wakes the thread of a simulated camera that makes the exposures. The thread waits for an instant,
+// a trigger, a client, or the end of the camera. All methods are thread-safe.
 #pragma once
 
 #include <chrono>
@@ -18,15 +18,15 @@ class ExposureCue {
   using Triggered = std::pair<Trigger, Clock::time_point>;
 
   void trigger(Trigger source);
-  // The client has sent a command, perhaps to start.
+  // The client has sent a command; it may have started the stream.
   void client_spoke();
   void end();
 
-  // Both return true when the camera is to end.
+  // This and wait_for_client() return true if end() has been called.
   bool wait_until(Clock::time_point time);
-  // Waits while no client streams. Forgets triggers.
+  // Waits until a client sends a command, at most `longest`. Discards earlier triggers.
   bool wait_for_client(Clock::duration longest);
-  // Nullopt without a trigger, or at the end.
+  // Waits for a trigger, at most `longest`. Nullopt: there was none, or end() has been called.
   std::optional<Triggered> wait_for_trigger(Clock::duration longest);
 
  private:

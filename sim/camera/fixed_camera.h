@@ -1,4 +1,4 @@
-// A simulated camera that stands still, in the place of a PTU.
+// A camera on a fixed mount, with the interface of a PTU; its angles never change.
 #pragma once
 
 #include "sim/ptu/device.h"

@@ -1,4 +1,5 @@
-// The control channel of a simulated GigE Vision camera: its sockets and the thread that listens.
+// The control channel of a simulated GigE Vision camera: its sockets, and the thread that receives
+// from them.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,14 @@
 
 namespace ols::sim {
 
-// "127.0.0.11" in network byte order. Throws std::system_error.
+// Converts text such as "127.0.0.11" to an address in network byte order. Throws std::system_error.
 std::uint32_t camera_address(const std::string& text);
 
 class GigeControl {
  public:
   using Reply = std::function<void(gige::Bytes acknowledgement)>;
-  // A packet from the client `peer` (its address << 16, plus its port). Called in this object's
-  // thread.
+  // Handles a packet from the client `peer` (its address << 16, plus its port). Called in this
+  // object's thread.
   using Handle = std::function<void(gige::Bytes packet, std::uint64_t peer, const Reply& reply)>;
 
   // Throws std::system_error if the address is not available.
@@ -33,7 +34,8 @@ class GigeControl {
 
   const std::uint32_t address_, mask_;
   const Handle handle_;
-  std::vector<int> sockets_;  // its own address first; the others receive broadcasts
+  // The first is bound to the camera's address, the others receive broadcasts.
+  std::vector<int> sockets_;
   int wake_ = -1;
   std::thread thread_;
 };

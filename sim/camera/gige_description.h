@@ -5,13 +5,13 @@
 
 namespace ols::sim::gige {
 
-// The naming of the features.
+// The names by which clients address the features.
 enum class FeatureNames {
-  kGt1290c,  // those of a Prosilica GT1290C, older than GenICam's convention
+  kGt1290c,  // of a Prosilica GT1290C; they are older than GenICam's convention
   kSfnc,     // GenICam's Standard Features Naming Convention 2.x
 };
 
-// XML. Addresses as in gige_registers.h.
+// The description as XML, with the register addresses of gige_registers.h.
 std::string description(FeatureNames names);
 
 }  // namespace ols::sim::gige

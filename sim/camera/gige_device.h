@@ -1,7 +1,7 @@
 // The registers of a simulated GigE Vision camera, and the answers of its control channel.
 //
 // Aravis' fake camera is not sufficient: it has no time latch and no trigger line, all its cameras
-// expose at the same instant, and drawing an image blocks its control channel.
+// expose at the same instant, and its control channel blocks while it draws an image.
 #pragma once
 
 #include <cstdint>
@@ -48,22 +48,23 @@ struct GigeDeviceConfig {
   int width_px = 0, height_px = 0;
   double exposure_s = 0.005;
   gige::FeatureNames names = gige::FeatureNames::kGt1290c;
-  bool tick_frequency = true;  // false: its register reads 0, as in some firmware
+  // false: the register of the tick frequency reads 0, as in some firmware
+  bool tick_frequency = true;
 };
 
 class GigeDevice {
  public:
   explicit GigeDevice(const GigeDeviceConfig& config);
 
-  // Takes a control packet from the client `peer` (address << 16 | port), with its times by the
-  // camera's clock and the monotonic clock.
+  // Handles a control packet from the client `peer` (address << 16 | port). `clock_ns` and
+  // `time_s`: when it arrived, by the camera's clock and by the monotonic clock.
   Answer handle(gige::Bytes packet, std::uint64_t peer, std::int64_t clock_ns, double time_s);
 
-  // The stream that is due; nullopt while no client streams. A client silent for longer than the
-  // heartbeat timeout is forgotten.
+  // The settings of the stream; nullopt while no client streams. If the client is silent for longer
+  // than the heartbeat timeout, its stream ends.
   std::optional<StreamSettings> streaming(double time_s);
 
-  // Whether its clock already follows a PTP master.
+  // Whether the camera's clock already follows a PTP master.
   bool ptp_slave(double time_s);
 
   // The camera forgets the configured size, as after a reset.
@@ -71,9 +72,9 @@ class GigeDevice {
   // The camera forgets everything, as when switched off and on.
   void power_cycle();
 
-  // can_resend: whether the camera claims to support packet resend. pixel_format: the format
-  // (GenICam name) that it enforces from the next connection on, whatever a client writes; empty:
-  // none. Throws std::invalid_argument for an unknown name.
+  // can_resend: whether the camera claims to support packet resend. pixel_format: GenICam's name of
+  // a format that the camera uses from the next connection on, whatever format a client writes;
+  // empty: the client's. Throws std::invalid_argument for an unknown name.
   void set_faults(bool can_resend, const std::string& pixel_format);
 
  private:
@@ -101,10 +102,10 @@ class GigeDevice {
   std::optional<std::uint64_t> controller_;
   double heard_s_ = 0.0;  // last packet from the controller
   bool can_resend_ = true;
-  bool triggered_ = false;             // by the current packet
+  bool triggered_ = false;             // by the packet being handled
   std::optional<double> ptp_since_s_;  // when PTP was switched on
   std::optional<std::uint32_t> kept_format_,
-      kept_format_next_;  // PFNC; now, and after the next connection
+      kept_format_next_;  // PFNC codes of the enforced format: now, and from the next connection on
 };
 
 }  // namespace ols::sim

@@ -1,5 +1,5 @@
-// The registers of the simulated GigE Vision camera: the standard's bootstrap registers, and the
-// camera's own.
+// The registers of the simulated GigE Vision camera: the standard's bootstrap registers, and
+// registers of this camera.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ constexpr std::uint32_t kPrivilege = 0x0a00;
 constexpr std::uint32_t kStreamPort = 0x0d00, kPacketSize = 0x0d04, kPacketDelay = 0x0d08;
 constexpr std::uint32_t kStreamAddress = 0x0d18;
 
-// This camera's own. Floats are IEEE 754 in 32 bits.
+// Registers of this camera. Floats are IEEE 754 in 32 bits.
 constexpr std::uint32_t kSensorWidth = 0xa000, kSensorHeight = 0xa004;
 constexpr std::uint32_t kWidth = 0xa008, kHeight = 0xa00c, kOffsetX = 0xa010, kOffsetY = 0xa014;
 constexpr std::uint32_t kPixelFormat = 0xa018;
@@ -44,7 +44,7 @@ constexpr std::uint32_t kStreamBytesPerSecond = 0xa080;
 
 // Values of kTriggerSource; 1 to 4 are the lines.
 constexpr std::uint32_t kFreerun = 0, kFixedRate = 5, kSoftware = 6;
-// Values of kPtpMode other than 0 (off), and of kPtpStatus.
+// Values of kPtpStatus. kPtpMode is 0 if PTP is off.
 constexpr std::uint32_t kPtpOff = 0, kPtpSyncing = 1, kPtpSlave = 2;
 
 // GenICam's codes (PFNC) of the available pixel formats.

@@ -7,11 +7,11 @@
 
 namespace ols::sim::gige {
 
-// OpenCV's type of an image of this format (PFNC code).
+// The OpenCV type (CV_8UC1, ...) of an image in this format (PFNC code).
 int picture_type(std::uint32_t pixel_format);
 
-// Converts `gray`, with a tint (red, green, blue), to this format. `raw` already has the right size
-// and type.
+// Converts `gray` to this format. `tint`: the factors of red, green and blue. `raw` must already
+// have the right size and type.
 void develop(const cv::Mat& gray, const std::array<double, 3>& tint, std::uint32_t pixel_format,
              cv::Mat& raw);
 

@@ -24,15 +24,16 @@ class GigeStream {
   GigeStream(const GigeStream&) = delete;
   GigeStream& operator=(const GigeStream&) = delete;
 
-  // An image to draw into. Its previous frame is no longer available for resend.
+  // An image to draw into. It may reuse the memory of the oldest frame, which is then no longer
+  // available for resend.
   cv::Mat blank(int width_px, int height_px, int type);
-  // Sends the image at the client's rate and keeps it for resend(). Returns at once, unless the
-  // client takes packets more slowly than images come.
+  // Sends the image at the packet rate that the client has set, and keeps it for resend(). Returns
+  // at once, unless images come faster than they can be sent at that rate.
   void send(const StreamSettings& settings, const gige::Picture& description,
             const cv::Mat& picture);
   void resend(const ResendRequest& request);
 
-  // The share of packets lost from now on, and whether lost packets are resent.
+  // Sets the share of packets that are lost from now on, and whether they are resent on request.
   void set_loss(double share, bool can_resend);
 
  private:
@@ -50,7 +51,7 @@ class GigeStream {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::shared_ptr<const Sent>> waiting_;  // to be sent
-  std::deque<std::shared_ptr<const Sent>> sent_;     // or being sent; newest last
+  std::deque<std::shared_ptr<const Sent>> sent_;     // sent or being sent; newest last
   bool stop_ = false;
 
   std::mutex loss_mutex_;

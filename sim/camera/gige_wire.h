@@ -39,9 +39,9 @@ struct ControlPacket {
 std::uint32_t big_endian(Bytes four);
 std::array<std::uint8_t, 4> big_endian(std::uint32_t value);
 
-// Nullopt if it is not a command.
+// Nullopt if the packet is not a command.
 std::optional<ControlPacket> parse(Bytes packet);
-// The acknowledgement; its command is that of the request plus one.
+// The acknowledgement. Its command code is that of the request plus one.
 std::vector<std::uint8_t> acknowledge(const ControlPacket& asked, Status status, Bytes data);
 
 struct Picture {

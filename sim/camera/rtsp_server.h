@@ -1,5 +1,5 @@
-// A simulated IP camera: serves its pictures by RTSP, with sender reports of its own clock. A
-// callback draws them, while a client looks on.
+// A simulated IP camera: serves its pictures by RTSP. Its sender reports (RTCP) give the time of
+// its own clock. While a client is connected, a callback draws the pictures.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class VideoCodec { kH264, kJpeg };
 struct RtspServerConfig {
   std::string address;         // of an interface
   int port = 8554;             // 0: any
-  std::string user, password;  // empty: none asked
+  std::string user, password;  // empty: no login
   VideoCodec codec = VideoCodec::kH264;
   int width_px = 1280, height_px = 960;
   double frame_rate_hz = 25.0;
@@ -31,7 +31,7 @@ struct RtspServerConfig {
 class RtspServer {
  public:
   // `draw` fills an 8-bit gray image; called in the camera's own thread. Throws std::runtime_error
-  // if the address is not available or GStreamer lacks a part.
+  // if the address is not available or a GStreamer plugin is missing.
   RtspServer(const RtspServerConfig& config, std::function<void(const Exposure&, cv::Mat&)> draw);
   ~RtspServer();
 
@@ -39,7 +39,7 @@ class RtspServer {
   // The camera sends another size from now on, as after a change of its settings.
   void set_size(int width_px, int height_px);
   void set_faults(const CameraFaults& faults);
-  // Connections so far.
+  // Number of connections since the start.
   int connections() const;
 
  private:

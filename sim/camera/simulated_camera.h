@@ -1,5 +1,5 @@
-// A simulated GigE Vision camera on one local address. A callback draws its images; its faults
-// leave out frames. One camera per address, because the control port is fixed.
+// A simulated GigE Vision camera on one local address. A callback draws its images. Each camera
+// needs an address of its own, because the standard fixes the control port.
 #pragma once
 
 #include <array>
@@ -23,15 +23,16 @@ struct SimulatedCameraConfig {
   double readout_s = 0.010;   // from the end of the exposure to the drawing of the frame
 
   gige::FeatureNames names = gige::FeatureNames::kGt1290c;
-  bool tick_frequency = true;     // false: its register reads 0, as in some firmware
+  // false: the register of the tick frequency reads 0, as in some firmware
+  bool tick_frequency = true;
   double clock_drift_ppm = 20.0;  // of the camera's own clock, which starts near 0
-  double tai_minus_utc_s = 37.0;  // of the PTP master, whose UTC is the host's
+  double tai_minus_utc_s = 37.0;  // of the PTP master, whose UTC is the host's clock
 };
 
 // One exposure to draw.
 struct Exposure {
   std::int64_t start_monotonic_ns = 0;  // CLOCK_MONOTONIC
-  double exposure_s = 0.0;              // as currently set by the client
+  double exposure_s = 0.0;              // as the client has set it
   double gain_dB = 0.0;                 // likewise
   std::uint64_t frame = 0;
 };
@@ -53,7 +54,7 @@ class SimulatedCamera {
 
   // The camera forgets the size set by the client, as after a reset.
   void set_size(int width_px, int height_px);
-  // Switches it off and on. It answers without interruption.
+  // Switches the camera off and on: it loses its settings. It answers without interruption.
   void power_cycle();
 
   // Faults of the camera from now on; from any thread.

@@ -1,5 +1,5 @@
-// Draws an instant into a picture, as black and white squares that survive every encoder. Tests and
-// measurements compare it with the time that a station gives the picture. Pure.
+// Draws an instant into a picture, as black and white squares that survive every video encoder.
+// Tests and measurements compare this instant with the station's time stamp of the picture. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ inline cv::Rect time_square(int bit) {
           kSquare_px};
 }
 
-// Into the upper left corner of a gray picture of at least 192 x 64 px.
+// Draws into the upper left corner of a gray picture of at least 192 x 64 px.
 inline void draw_time(std::int64_t microseconds, cv::Mat& gray) {
   for (int bit = 0; bit < kSquares; ++bit)
     gray(time_square(bit)).setTo((microseconds >> bit & 1) != 0 ? 230 : 20);

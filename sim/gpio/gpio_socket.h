@@ -1,5 +1,6 @@
-// GPIO lines on a Unix socket, with the protocol of edge/gpio/gpio_lines.h: inputs for emergency
-// stop and re-arm button, outputs for status LED and camera trigger. Thread-safe.
+// Simulated GPIO lines on a Unix socket, with the protocol of edge/gpio/gpio_lines.h. Inputs of the
+// station: emergency stop and re-arm button. Its outputs: status LED and camera trigger.
+// Thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 namespace ols::sim {
 
 struct GpioServerConfig {
-  std::string path;  // of the socket; an old one is replaced
+  std::string path;  // of the socket; replaces an old socket
   int stop_line = 17;
   bool stop_active_low = false;  // as in GpioConfig
   int rearm_line = 18;
@@ -28,7 +29,7 @@ class GpioServer {
 
   void set_pressed(bool pressed);
   void hold_rearm(bool held);
-  // Connections stay open but get no answer, as with a process that hangs.
+  // Connections stay open but get no answer, as if the process hung.
   void set_silent(bool silent);
 
   bool led() const;
@@ -47,7 +48,7 @@ class GpioServer {
   const int listener_, bell_;
 
   mutable std::mutex mutex_;            // for everything below
-  std::map<int, std::string> clients_;  // the unfinished line of each
+  std::map<int, std::string> clients_;  // by file descriptor: the incomplete line received so far
   bool pressed_ = false, rearm_held_ = false, silent_ = false;
   bool led_ = false, trigger_ = false;
   std::uint64_t led_changes_ = 0, triggers_ = 0;

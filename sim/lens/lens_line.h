@@ -18,7 +18,7 @@ class LensLine {
 
   const std::string& device() const { return pty_.device(); }
 
-  // The true zoom position at an instant of CLOCK_MONOTONIC, now or a little earlier.
+  // The true zoom position at an instant of CLOCK_MONOTONIC, from two seconds ago to now.
   double zoom_at(double monotonic_s) const;
 
  private:

@@ -1,5 +1,5 @@
 // A simulated zoom lens that speaks VISCA. It is written from docs/overview.md, without the
-// product's codec, so that the two do not share a mistake. Pure: bytes and time in, bytes and true
+// product's codec, so that one mistake cannot be in both. Pure: bytes and time in, bytes and true
 // positions out. sim/lens/lens_line.* puts it on a pty.
 #pragma once
 
@@ -12,9 +12,9 @@
 namespace ols::sim {
 
 struct LensUnitConfig {
-  double zoom_travel_s = 3.0;  // from end to end at full speed
+  double zoom_travel_s = 3.0;  // from one end to the other at full speed
   double focus_travel_s = 2.0;
-  double cycle_s = 1.0 / 60.0;  // it answers once per picture
+  double cycle_s = 1.0 / 60.0;  // the lens answers once per picture
   int baud = 9600;
   double start_zoom = 0.0;  // 0 widest .. 1 longest
 };
@@ -25,12 +25,12 @@ class LensUnit {
 
   // Takes bytes that have arrived. Time never decreases between calls of receive() and transmit().
   void receive(std::string_view bytes, double time_s);
-  // The bytes that are on the line by this time, each returned once.
+  // The bytes that are on the line by this time. Each byte is returned once.
   std::string transmit(double time_s);
   // When transmit() will return something, as far as known now.
   std::optional<double> next_output_s() const;
 
-  // The true position at an instant of the last two seconds.
+  // The true zoom position at an instant of the last two seconds, 0 widest .. 1 longest.
   double zoom_at(double time_s) const;
   double focus_at(double time_s) const { return focus_.at(time_s); }
   int iris() const { return iris_; }
@@ -40,7 +40,7 @@ class LensUnit {
   class Drive {
    public:
     Drive(double travel_s, double position, double time_s);
-    void run(double rate, double time_s);          // share of full speed, signed
+    void run(double rate, double time_s);          // `rate`: signed share of full speed
     double go_to(double position, double time_s);  // returns the time of arrival
     double at(double time_s) const;
 
@@ -48,7 +48,7 @@ class LensUnit {
     struct Piece {
       double from_s, position;  // at from_s
       double speed;             // [1/s]
-      double until_s;           // the drive stands after this
+      double until_s;           // then the drive is at rest
     };
     static double within(const Piece& piece, double time_s);
     void add(const Piece& piece);

@@ -1,4 +1,4 @@
-// A real zoom lens, and its calibration. Pure.
+// The true focal lengths of a simulated zoom lens, and its calibration with errors. Pure.
 #pragma once
 
 #include <array>
@@ -20,14 +20,14 @@ struct ZoomScenario {
   bool is_fixed() const { return range_mm[0] == 0.0 && range_mm[1] == 0.0; }
 };
 
-// The keys of a zoom lens in a scenario's [[station]].
+// The keys for the zoom lens in a scenario's [[station]].
 std::vector<config::Row> zoom_rows(ZoomScenario& zoom);
-// The error in these keys; empty: none.
+// What is wrong with these keys; empty: nothing.
 std::string zoom_problem(const ZoomScenario& zoom, bool overview);
 
 class ZoomTruth {
  public:
-  // `widest`: the camera at position 0.
+  // `widest`: the camera at zoom position 0. `ratio`: the longest focal length over the widest.
   ZoomTruth(const CameraIntrinsics& widest, double ratio) : widest_(widest), ratio_(ratio) {}
 
   CameraIntrinsics camera_at(double position) const;

@@ -1,6 +1,7 @@
-// The world in real time, behind real wires: for every station a GigE Vision or RTSP camera, and
-// PTU, inclinometer and GNSS receiver on ptys. The truth is published on channels that no product
-// process reads. Faults come from the scenario and by OLS_SIM_FAULT.
+// The simulated world in real time, with the interfaces of real devices. Every station has a GigE
+// Vision or RTSP camera, and a PTU, inclinometer and GNSS receiver on ptys. The truth is published
+// on channels that no product process reads. The scenario and the channel OLS_SIM_FAULT set the
+// faults.
 #pragma once
 
 #include <atomic>
@@ -21,15 +22,15 @@ namespace ols::sim {
 
 class LiveSite {
  public:
-  // The scenario's time 0 is now, and true UTC is what the host's clock shows now. From then on the
-  // monotonic clock counts, so that a step of the host's clock does not move the targets.
-  // `line_folder`: for the links to the serial lines. Throws std::system_error if an address or a
-  // link is not available.
+  // Now is the scenario's time 0, and the host's clock now shows true UTC. Both times then advance
+  // with the monotonic clock: a step of the host's clock does not move the targets. `line_folder`:
+  // folder of the links to the serial lines. Throws std::system_error if an address or a link is
+  // not available.
   LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
   ~LiveSite();
 
-  // Publishes OLS_SIM_TRUTH and OLS_SIM_PTU_<station>: targets and PTUs now, and since the last
-  // call.
+  // Publishes OLS_SIM_TRUTH (the targets) and OLS_SIM_PTU_<station> (the PTUs): their states now
+  // and since the last call.
   void publish_truth();
 
   // Applies the active faults to every device. Call every few milliseconds, in the thread that

@@ -1,7 +1,7 @@
-// The Cramer-Rao bound of a target's position at one instant, from one exposure of each station:
-// computed with the true geometry, the scenario's error sigmas and the actual pixel noise. The
-// effect of each error on the pixel is a difference quotient of the projection, not one of the
-// product's covariances, so that this bound can test geometry/precision.h.
+// The Cramer-Rao bound of a target's position at one instant, from one exposure of each station. It
+// is computed with the true geometry, the scenario's error sigmas and the actual pixel noise. The
+// effect of each error on the pixel is a difference quotient of the projection. No covariance of
+// the product is used: this bound tests geometry/precision.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,8 @@ namespace ols::sim {
 
 struct MeasurementNoise {
   double pixel_sd_px = 0.3;  // white
-  // Remaining share of the white noise. 0: averaged away, a bound that no smoothing beats.
+  // Remaining share of the white noise. 0: all averaged away; no smoother can be better than this
+  // bound.
   double white_share = 1.0;
 };
 

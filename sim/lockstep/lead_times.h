@@ -1,5 +1,5 @@
-// How long it takes in simulated time until stations that have never seen the target follow it.
-// overview_click.h and outside_cue.h lead the stations there.
+// The time, in simulated time, until stations that have never seen the target follow it. The
+// stations are led to it by a click (overview_click.h) or a cue (outside_cue.h).
 #pragma once
 
 #include <map>
@@ -11,13 +11,14 @@
 
 namespace ols::sim {
 
-// Seconds after the event, by station. A station that did not get this far is missing.
+// Times in seconds after the click or cue, by station. A station that never got this far has no
+// entry.
 struct LeadTimes {
   std::map<std::string, double> in_picture;  // until the target is in its picture
-  std::map<std::string, double> acquired;    // until it tries a detected object
+  std::map<std::string, double> acquired;    // until it first tries to follow a detected object
   std::map<std::string, double> follows;     // until it tracks the target in its picture
   std::map<std::string, int> acquisitions;   // number of objects tried so far
-  std::optional<double> located;             // the fusion has a position
+  std::optional<double> located;             // until the fusion has a position
   std::size_t stations = 0;                  // number of stations that are to follow
 
   bool complete() const { return follows.size() == stations; }
@@ -26,7 +27,7 @@ struct LeadTimes {
 void note(LeadTimes& times, Lockstep& lockstep, const std::string& id, double after_s);
 void note_position(LeadTimes& times, const Lockstep& lockstep, double after_s);
 
-// The same flight, of which the first by_s are left out.
+// The same scenario without the first `by_s` seconds of the targets' flights.
 Scenario later(Scenario scenario, double by_s);
 Fidelity nobody_designates(const Scenario& scenario);
 

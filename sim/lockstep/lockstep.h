@@ -19,7 +19,8 @@
 
 namespace ols::sim {
 
-// One published target and the truth about the scenario's first one, in the site's east, north, up.
+// One published position, and its error from the scenario's first target, in the site's east,
+// north, up.
 struct Fix {
   std::int64_t utime_us = 0;
   std::int64_t target_id = 0;
@@ -49,18 +50,19 @@ struct LockstepResult {
 
 class Lockstep {
  public:
-  // `world` must outlive it. `calibrations`: by station; empty: all work as configured.
+  // `world` must outlive this object. `calibrations`: by station; empty: all stations use the
+  // geometry of their configuration.
   Lockstep(const World& world, const Fidelity& fidelity,
            const std::vector<std::optional<StationCalibration>>& calibrations = {});
 
   void run(double duration_s);
-  // By name, which must exist.
+  // The station of this name, which must exist.
   LockstepStation& station(const std::string& id) { return *stations_.at(index_of(id)); }
-  // Takes a target reported from outside; takes an operator's decision on it.
+  // Passes a cue from outside to the fusion; allow_cue(): the operator allows it.
   void hear(const fusion::Cue& cue, double time_s);
   bool allow_cue(const std::string& id) { return fusion_.allow_cue(id, true); }
   const fusion::Fusion& fusion() const { return fusion_; }
-  // Called with every target that the fusion publishes, and the scenario's time.
+  // Called with every target that the fusion publishes. `time_s`: of the scenario.
   using Listener = std::function<void(const fusion::FusedTarget&, double time_s)>;
   void listen(Listener listener) { listener_ = std::move(listener); }
   LockstepResult result() const;

@@ -1,6 +1,6 @@
-// The mount of a simulated station's camera, in simulated time: a simulated unit or ONVIF camera
-// with the product's driver, or a fixed mount. A unit stands for a telescope mount. Times are the
-// station's monotonic clock [s].
+// The mount of a simulated station's camera, in simulated time: a simulated PTU or ONVIF camera
+// with the product's driver, or a fixed mount. A telescope mount is replaced by a PTU. Times are of
+// the station's monotonic clock [s].
 #pragma once
 
 #include <map>
@@ -25,7 +25,7 @@ class LockstepMount {
   virtual void set_goal(const std::optional<mount::Goal>& goal) = 0;
   virtual mount::Reference reference() const = 0;
   virtual std::optional<mount::Limits> limits() const = 0;  // empty until it is ready
-  // The angles of the shafts, as the unit counts them; up to two seconds back.
+  // The shafts' angles as the unit counts them, at an instant from two seconds ago to now.
   virtual PanTilt angles_at(double time_s) const = 0;
   virtual std::map<std::string, double> counters() const = 0;
 };

@@ -1,5 +1,6 @@
-// The operator of one station in simulated time. The operator points the camera roughly, and
-// designates the target once it is in an image of a stationary camera.
+// The operator of one station in simulated time. The operator points the camera roughly at the
+// target. Once the camera is at rest and the target is in its image, the operator designates the
+// target.
 #pragma once
 
 #include <deque>
@@ -55,7 +56,7 @@ class LockstepOperator {
   const World& world_;
   std::size_t index_;
   LockstepNoise& noise_;
-  const LockstepMount& mount_;  // as its image shows
+  const LockstepMount& mount_;  // the image shows the operator whether the mount moves
   station::Station& station_;
   std::optional<Misdesignation> wrong_;
   bool leaves_alone_;

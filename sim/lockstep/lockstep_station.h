@@ -1,5 +1,5 @@
-// One station in simulated time: the product's Station on its mount, and a simulated camera's
-// frames.
+// One station in simulated time: the product's Station, with the mount and the frames of simulated
+// devices.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@
 
 namespace ols::sim {
 
-// The station's result and the truth for one frame. There is none while the station waits for its
-// designation.
+// The station's result and the truth for one frame. While the station waits for its designation,
+// there are no notes.
 struct FrameNote {
   double mid_s = 0.0;  // true time since the scenario's start
   station::StationState state = station::StationState::kIdle;
@@ -34,7 +34,7 @@ struct FrameNote {
   ViewTruth view;
   bool inside_third = false;  // the target is inside the central third, horizontally and vertically
   std::optional<Eigen::Vector2d> error_px;  // of the measured pixel, while tracking
-  std::optional<cv::Rect2d> box;            // [px] of the tracker
+  std::optional<cv::Rect2d> box;            // [px] the tracker's box
   std::vector<Alarm> alarms;                // of the station's own logic
 };
 
@@ -51,18 +51,20 @@ class LockstepStation {
                   std::unique_ptr<Renderer> renderer,
                   const std::optional<StationCalibration>& calibration = std::nullopt);
 
-  // Advances to this instant of true time (in steps of about a millisecond); returns the bearings.
+  // Advances to this instant of true time; returns the new bearings. Call in steps of about a
+  // millisecond.
   std::vector<station::Bearing> advance(double time_s);
 
-  // The station's sightings (counts and pixel) for a bearing of the last advance, by its stamp.
+  // The station's sightings (counts and pixel) for a bearing that the last advance() returned.
+  // `utime_us`: the stamp of the bearing.
   std::vector<station::Sighting> sightings(const station::Bearing& bearing, std::int64_t utime_us) {
     return sightings_.take(bearing, utime_us, station_.pointing());
   }
   station::Refusal slew(station::SlewCommand command, double time_s);
   station::Refusal occlude(station::OcclusionCommand command, double time_s);
   const station::Station& station() const { return station_; }
-  // For a caller that gives the station orders between two advances. Times are monotonic_s() of
-  // now.
+  // For a caller that gives the station orders between two calls of advance(). Times in these
+  // orders are monotonic_s() of now.
   station::Station& station() { return station_; }
   // The truth about the newest picture.
   const ViewTruth& view() const { return views_.newest(); }
@@ -71,13 +73,13 @@ class LockstepStation {
   bool left_alone() const { return operator_.leaves_alone(); }
 
  private:
-  // A zoom lens on its line.
+  // A simulated zoom lens, and the product's driver of it.
   struct Lens {
     sim::LensUnit unit;
     lens::LensDriver driver;
   };
-  // The detector. A result is available only after some time, as on a station, where the detector
-  // has a thread of its own.
+  // The detector. Its result is available only after some time, as on a real station, where the
+  // detector runs in a thread of its own.
   struct Detection {
     detector::PictureDetector detector;
     std::optional<detector::Found> found{};

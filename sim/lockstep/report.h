@@ -18,18 +18,18 @@ struct EstimatorSummary {
 };
 
 struct BoundSummary {
-  double crb_rmse_m = 0.0;             // root of the mean trace, one exposure of each station
+  double crb_rmse_m = 0.0;  // root of the bound's mean trace, with one exposure of each station
   double crb_horizontal_rmse_m = 0.0;  // the horizontal part
   double crb_floor_rmse_m = 0.0;       // with all white noise averaged away
 };
 
 EstimatorSummary summarise(const std::vector<Fix>& fixes);
-// The bound for every `stride`-th of these fixes, at its epoch and with its stations.
+// The bound for every `stride`-th of these fixes, at the epoch and with the stations of that fix.
 BoundSummary summarise_bound(const World& world, const std::vector<Fix>& fixes,
                              const MeasurementNoise& noise, std::size_t stride = 10);
 
-// Pixel errors over all stations, above min belief: the mean, and the white part (about each
-// station's mean).
+// Errors of the measured pixels, per coordinate, of all frames in which a station tracks: the mean
+// of each station (root mean square over the stations), and the white part about it.
 struct PixelSummary {
   double white_sd_px = 0.0;
   double mean_px = 0.0;

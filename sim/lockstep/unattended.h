@@ -1,4 +1,5 @@
-// A site without any person, in simulated time: when it sees, locates and names what flies there.
+// A site without operators, in simulated time: when it sees, locates and classifies each flying
+// object.
 #pragma once
 
 #include <map>
@@ -12,24 +13,26 @@
 
 namespace ols::sim {
 
-// Of one target of the scenario; in seconds of the scenario.
+// When the site found one target of the scenario, in seconds of the scenario.
 struct FoundTarget {
-  std::optional<double> seen_s;     // first on a line of sight of the fusion
-  std::optional<double> located_s;  // first at a position
-  std::optional<double> named_s;    // first with its class
-  int wrong_names = 0;              // publications with another class than its own or 'unknown'
+  std::optional<double> seen_s;     // first near a published line of sight or position
+  std::optional<double> located_s;  // first near a published position
+  std::optional<double> named_s;    // first published with the right class
+  int wrong_names = 0;              // publications with a wrong class; 'unknown' is not wrong
   std::set<std::int64_t> identities;
 };
 
 struct UnattendedRun {
-  std::map<std::string, FoundTarget> targets;  // by the scenario's id
-  std::set<std::int64_t> ghosts;               // positions where nothing flies
-  int drones_that_are_none = 0;                // publications: what would have raised an alarm
-  std::size_t stations_on_it = 0;              // that track the first target at the end
-  LeadTimes first;                             // of the scenario's first target
+  std::map<std::string, FoundTarget> targets;  // by the target's id in the scenario
+  std::set<std::int64_t> ghosts;               // ids of targets published where nothing flies
+  // Publications of something else as a drone; each would raise an alarm.
+  int drones_that_are_none = 0;
+  std::size_t stations_on_it = 0;  // that follow the first target at the end
+  LeadTimes first;                 // to the scenario's first target
 };
 
-// Nobody designates, and targets of these classes lead stations at once.
+// Runs a scenario in which nobody designates. Targets of these classes lead stations at once,
+// without an operator's permission.
 UnattendedRun run_unattended(const Scenario& scenario, std::uint64_t seed, double seconds,
                              const std::vector<fusion::ObjectClass>& classes);
 

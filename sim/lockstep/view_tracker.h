@@ -1,5 +1,5 @@
-// Replaces the visual tracker in Monte Carlo runs without images: measures the true pixel, with
-// drawn noise of the stated covariance.
+// Replaces the visual tracker in Monte Carlo runs without images: its measurement is the true pixel
+// plus random noise with the stated covariance.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace ols::sim {
 class ViewMemory {
  public:
   void add(double time_s, const ViewTruth& view);
-  // Null without a frame of exactly this stamp.
+  // Null if no frame has exactly this stamp.
   const ViewTruth* at(double time_s) const;
   const ViewTruth& newest() const { return views_.back().second; }  // there must be one
 
@@ -25,11 +25,11 @@ class ViewMemory {
 
 class ViewTracker final : public tracker::TargetTracker {
  public:
-  // `views` must outlive the tracker. pixel_sd_px: of each coordinate, new with every frame.
+  // `views` must outlive the tracker. pixel_sd_px: white noise of each coordinate.
   ViewTracker(const ViewMemory& views, double pixel_sd_px, std::uint64_t seed);
 
-  // What the box's middle shows is followed: a point of the target, at a constant distance in
-  // metres from its centre, across the line of sight.
+  // The tracker follows the point in the middle of the box. The offset of this point from the
+  // target's centre, across the line of sight, stays constant in metres.
   std::optional<tracker::TrackerError> initialise(const tracker::TrackerInput& frame,
                                                   const cv::Rect2d& box) override;
   tracker::TrackerResult track(const tracker::TrackerInput& frame) override;
