@@ -1,10 +1,11 @@
-// Forged commands to one station, from an attacker who wants to keep the operator out. Pure;
-// deterministic by its seed and the times it is given.
+// Forged commands to one station, from an attacker who wants to keep the operator out. Pure; the
+// same seed and times give the same commands.
 //
-// Every station must refuse most of them: stale, replayed, from the future, for another station, of
-// another schema, damaged, out of limits (these look fresh: always new senders, stamps somewhat
-// ahead), slews with maximum sequence numbers. One in eighteen is fresh and well-formed. Without
-// signatures the station obeys it, and its unit points to alternate sides.
+// A station must refuse nearly all of them. They are stale, replayed, stamped in the future, meant
+// for another station, of another schema or damaged. Others look fresh, with a new sender each
+// time, but point beyond the limits, or are slews with the largest sequence number. One command in
+// eighteen is fresh and well-formed: without signatures the station obeys it, and its unit swings
+// from side to side.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@
 
 namespace ols::sim {
 
-// Where the obeyed commands point at this instant: alternately +- kSwing_rad, for kSwing_us each.
+// The pan angle of the well-formed commands at this instant: +kSwing_rad and -kSwing_rad in turn,
+// for kSwing_us each.
 constexpr double kSwing_rad = 1.4;
 constexpr std::int64_t kSwing_us = 4'000'000;
 double swing_goal_rad(std::int64_t utime_us);
@@ -24,7 +26,7 @@ class CommandFlood {
  public:
   CommandFlood(std::string station, std::uint64_t seed);
 
-  // `utime_us`: UTC since 1970, which decides whether stamps are fresh or stale.
+  // The next command. `utime_us`: UTC now; the stamps are relative to it.
   Packet next(std::int64_t utime_us);
 
  private:

@@ -1,6 +1,6 @@
-// Foreign messages, as on a shared or hostile network: unknown channels, and the site's own
-// channels with random bytes, with a valid fingerprint and a damaged rest, or for stations that do
-// not exist. Pure; deterministic by its seed.
+// Foreign messages, as on a shared or hostile network. Some are on unknown channels. Others are on
+// the site's own channels: random bytes, damaged messages with a valid fingerprint, or messages for
+// stations that do not exist. Pure; the same seed gives the same messages.
 #pragma once
 
 #include <cstdint>

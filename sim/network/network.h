@@ -1,5 +1,6 @@
 // The network between stations and fusion in simulated time: it delays, loses and duplicates
-// messages. Deterministic; messages that arrive at the same instant keep their order of sending.
+// messages. Deterministic. Messages that arrive at the same instant keep the order in which they
+// were sent.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ class Network {
   Network(const Errors::Messages& errors, std::uint64_t seed) : errors_(errors), generator_(seed) {}
 
   void send(const Message& message, double time_s) {
-    // All random numbers are always drawn, so that one switch does not change the others.
+    // Always draws all random numbers: switching one error on or off does not change the others.
     const bool lost = draw() < errors_.lost, doubled = draw() < errors_.doubled;
     const bool late = draw() < errors_.late;
     if (errors_.on && lost) return;

@@ -1,4 +1,4 @@
-// Arbitrary bytes as a message that LcmBus can publish.
+// Wraps arbitrary bytes as a message that LcmBus can publish.
 #pragma once
 
 #include <cstdint>

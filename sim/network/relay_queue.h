@@ -1,5 +1,5 @@
 // One direction of a relay between two buses: loses, duplicates, delays and reorders messages at
-// random. Pure; deterministic by its seed, independent of the times.
+// random. Pure; the seed alone decides what happens to which message, whatever the times.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace ols::sim {
 struct Impairments {
   double loss = 0.0, duplicate = 0.0, reorder = 0.0;  // probabilities, per message
   double delay_s = 0.0;                               // of every message
-  double reorder_s = 0.05;      // added to a reordered message, so that later ones overtake it
+  double reorder_s = 0.05;      // extra delay of a reordered message; later ones overtake it
   std::size_t capacity = 1000;  // max messages in transit; further ones are dropped
 };
 

@@ -1,4 +1,4 @@
-// What a simulated ONVIF PTZ camera is.
+// The configuration of a simulated ONVIF PTZ camera.
 #pragma once
 
 #include <string>

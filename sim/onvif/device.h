@@ -32,8 +32,8 @@ class OnvifDevice {
 
   void set_faults(const PtzFaults& faults, double time_s);
 
-  // nullopt: the connection breaks. `time_s`: of the unit's clock, which never decreases;
-  // `utime_us`: UTC.
+  // Answers a request; nullopt: the connection breaks. `time_s`: the unit's clock, which never
+  // decreases; `utime_us`: UTC.
   std::optional<OnvifAnswer> answer(const OnvifRequest& request, double time_s,
                                     std::int64_t utime_us);
 
@@ -42,7 +42,7 @@ class OnvifDevice {
  private:
   struct Operation {
     const char *space, *name;
-    bool open;  // to everybody
+    bool open;  // whether it needs no login
     std::string (OnvifDevice::*run)(pugi::xml_node request);
   };
   static const Operation* operation(const XmlName& name);
@@ -79,7 +79,7 @@ class OnvifDevice {
   PtzUnit unit_;
   PtzFaults faults_;
   std::mt19937_64 random_;
-  // Of the request in hand.
+  // Of the request being answered.
   double time_s_ = 0.0;
   std::int64_t utime_us_ = 0;  // the camera's clock
 };

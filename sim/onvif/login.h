@@ -1,5 +1,7 @@
-// Who may command a simulated ONVIF device: WS-UsernameToken with a digest (Web Services Security
-// UsernameToken Profile 1.0) and HTTP digest (RFC 7616, MD5). Nonces are good once. Pure.
+// Checks who may command a simulated ONVIF device, by WS-UsernameToken with a digest (Web Services
+// Security UsernameToken Profile 1.0) or by HTTP digest (RFC 7616, MD5). A token's nonce is
+// accepted once; a nonce of HTTP digest is accepted for kNonceAge_s, with a count that must rise.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +18,9 @@ struct UsernameToken {
   std::string user, digest, nonce, created;  // digest and nonce in base64
 };
 
-// A dateTime of XML Schema in UTC [s since 1970]; NaN: not one.
+// Converts a dateTime of XML Schema in UTC to seconds since 1970; NaN: the text is not a dateTime.
 double utc_of(const std::string& date_time);
-// The other way, with milliseconds.
+// Converts UTC to a dateTime of XML Schema, with milliseconds.
 std::string date_time_of(std::int64_t utime_us);
 
 class Login {
@@ -35,19 +37,19 @@ class Login {
   // The header WWW-Authenticate, with a new nonce.
   std::string challenge(bool is_stale, double now_s);
 
-  static constexpr double kTokenAge_s = 5.0;    // most difference of a token's time to the clock
-  static constexpr double kNonceAge_s = 120.0;  // how long a nonce of HTTP digest is good
+  static constexpr double kTokenAge_s = 5.0;  // max difference between a token's time and the clock
+  static constexpr double kNonceAge_s = 120.0;  // how long a nonce of HTTP digest is valid
 
  private:
   struct Issued {
     double at_s = 0.0;
-    std::uint64_t count = 0;  // the newest one seen
+    std::uint64_t count = 0;  // the largest count received with this nonce
   };
 
   const std::string user_, password_;
   std::mt19937_64 random_;
   std::map<std::string, Issued> issued_;
-  std::deque<std::string> seen_;  // nonces of tokens
+  std::deque<std::string> seen_;  // nonces of accepted tokens
 };
 
 }  // namespace ols::sim

@@ -1,5 +1,5 @@
-// A simulated ONVIF camera and the product's drive of it in simulated time. They exchange real SOAP
-// texts; each takes some time on the way. Pure.
+// A simulated ONVIF camera and the product's driver of it (mount::Drive), in simulated time. They
+// exchange real SOAP texts; each text takes some time to arrive. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ols::sim {
 
-// The drive's configuration as the camera's data sheet gives it.
+// The driver's configuration, with the values that the camera's data sheet would give.
 mount::DriveConfig drive_config(const PtzUnitConfig& unit);
 
 class OnvifInHand {
@@ -26,11 +26,11 @@ class OnvifInHand {
 
   mount::Drive& drive() { return drive_; }
   const mount::Drive& drive() const { return drive_; }
-  PanTilt angles_at(double time_s) const { return device_.angles_at(time_s); }  // true ones
+  PanTilt angles_at(double time_s) const { return device_.angles_at(time_s); }  // the true angles
   void set_faults(const PtzFaults& faults, double now_s);
 
   struct Wire {
-    double least_s = 0.005, most_s = 0.03;  // of each way
+    double least_s = 0.005, most_s = 0.03;  // delay in each direction
     bool cut = false;
   };
   Wire wire;
@@ -48,7 +48,7 @@ class OnvifInHand {
   OnvifDevice device_;
   mount::Drive drive_;
   std::mt19937_64 random_;
-  double device_s_ = 0.0;  // of the last request's arrival
+  double device_s_ = 0.0;  // when the last request arrived at the device
   double sent_s_ = 0.0, again_s_ = 0.0;
   std::optional<mount::Order> pending_;
   std::string answer_;

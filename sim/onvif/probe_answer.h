@@ -1,4 +1,5 @@
-// How a simulated ONVIF device answers those who look for cameras (WS-Discovery, April 2005). Pure.
+// The answer of a simulated ONVIF device to a program that searches for cameras (WS-Discovery,
+// April 2005). Pure.
 #pragma once
 
 #include <optional>
@@ -8,7 +9,7 @@
 
 namespace ols::sim {
 
-// nullopt: the datagram is no probe, or asks for another kind of device.
+// The answer to a datagram; nullopt: it is not a probe, or asks for another kind of device.
 std::optional<std::string> probe_answer(const std::string& datagram, const OnvifConfig& config);
 
 }  // namespace ols::sim

@@ -1,4 +1,5 @@
-// Answers those who look for cameras on the network, in the thread of an io_context.
+// Answers programs that search the network for cameras (probe_answer.h), in the thread of an
+// io_context.
 #pragma once
 
 #include <array>
@@ -11,7 +12,8 @@ namespace ols::sim {
 
 class ProbeServer {
  public:
-  // Throws boost::system::system_error if the network of the device's address has no multicast.
+  // Throws boost::system::system_error if the interface of the device's address does not support
+  // multicast.
   ProbeServer(boost::asio::io_context& io, const OnvifConfig& config);
 
  private:

@@ -1,5 +1,5 @@
-// Node, configuration and spaces of a simulated PTZ as ONVIF's schema describes them, and the names
-// by which they are called. Pure.
+// The node, configuration and spaces of a simulated PTZ camera as XML by ONVIF's schema, and their
+// tokens. Pure.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace ols::sim::ptz_entity {
 constexpr const char *kProfile = "main", *kNode = "mount", *kConfiguration = "motion";
 
 std::string node();
-// `element`: its name with prefix.
+// `element`: the name of the XML element, with its prefix.
 std::string configuration(const char* element);
 std::string options();
 
-// What the device says of itself when it is looked for.
+// The scopes with which the device describes itself to programs that search for cameras.
 std::vector<std::string> scopes(const OnvifConfig& config);
 
 }  // namespace ols::sim::ptz_entity

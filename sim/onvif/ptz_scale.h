@@ -1,5 +1,6 @@
-// A PTZ unit's angles in ONVIF's generic spaces, -1 to 1: x to the right and y upwards, over the
-// whole travel, or by the greatest speed. Pure.
+// Converts a PTZ unit's angles and speeds to ONVIF's generic spaces, where values are from -1 to 1.
+// x is positive to the right, y upwards. Positions cover the whole travel, velocities the speeds up
+// to the greatest. Pure.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ inline PtzVector generic(const PanTilt& angles, const PtzUnitConfig& unit) {
           share(angles.tilt_rad, unit.least.tilt_rad, unit.greatest.tilt_rad)};
 }
 
-// Of x (0) or y (1).
+// The angle at a generic position along x (`axis` 0) or y (1).
 inline double angle_rad(int axis, double value, const PtzUnitConfig& unit) {
   const auto between = [value](double from, double to) {
     return from + 0.5 * (value + 1.0) * (to - from);
@@ -27,7 +28,7 @@ inline double angle_rad(int axis, double value, const PtzUnitConfig& unit) {
                    : between(unit.least.tilt_rad, unit.greatest.tilt_rad);
 }
 
-// Of a generic velocity of 1, along x (0) or y (1) [rad/s].
+// The speed [rad/s] of a generic velocity of 1 along x (`axis` 0) or y (1).
 inline double full_speed_rad_s(int axis, const PtzUnitConfig& unit) {
   return axis == 0 ? -unit.max_speed_rad_s : unit.max_speed_rad_s;
 }

@@ -1,4 +1,4 @@
-// The arguments of PTZ moves in ONVIF's generic spaces. Pure.
+// Reads the arguments of PTZ moves in ONVIF's generic spaces. Pure.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace ols::sim {
 
-// URIs of the spaces of pan and tilt.
+// URIs of the generic spaces for pan and tilt.
 namespace ptz_space {
 constexpr const char* kPosition =
     "http://www.onvif.org/ver10/tptz/PanTiltSpaces/PositionGenericSpace";
@@ -21,12 +21,12 @@ constexpr const char* kSpeed = "http://www.onvif.org/ver10/tptz/PanTiltSpaces/Ge
 
 constexpr double kLeastTimeout_s = 0.1, kGreatestTimeout_s = 60.0, kDefaultTimeout_s = 5.0;
 
-// The element `name` of a move with its PanTilt. nullopt: there is no PanTilt. Throws SoapFault if
-// the element is missing though `required`, with `invalid` if a value is outside [least, 1].
+// Reads PanTilt from the element `name` of a move; nullopt: it has none. Throws SoapFault if a
+// `required` element is missing, or, with the subcode `invalid`, if a value is outside [least, 1].
 std::optional<PtzVector> pan_tilt_of(pugi::xml_node move, const char* name, bool required,
                                      const char* space, double least, const char* invalid);
 
-// [s]. Throws SoapFault.
+// The timeout of a move [s]. Throws SoapFault.
 double timeout_of(pugi::xml_node move);
 
 }  // namespace ols::sim

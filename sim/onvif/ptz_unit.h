@@ -1,5 +1,5 @@
-// The pan-tilt mechanics of a simulated ONVIF PTZ camera, with their faults: commands and time in,
-// angles out. It stands at its home position (0, 0) when it is switched on. Pure.
+// The pan-tilt mechanics of a simulated ONVIF PTZ camera, with faults: commands and time in, angles
+// out. At power-up the unit is at its home position (0, 0). Pure.
 #pragma once
 
 #include <array>
@@ -19,9 +19,10 @@ struct PtzUnitConfig {
   double max_speed_rad_s = radians(60.0);  // of each axis
   double acceleration_rad_s2 = radians(120.0);
   double command_delay_s = 0.08;  // from a command's arrival to the motion
-  // 1-sigma by which a move to a position misses it. The reported positions do not show this error.
+  // 1-sigma of the position error after a move to a position. The reported positions do not show
+  // it.
   double repeatability_rad = 0.0;
-  double boot_s = 20.0;  // without answers
+  double boot_s = 20.0;  // after power-up, without answers
 };
 
 class PtzUnit {
@@ -33,15 +34,15 @@ class PtzUnit {
   // Times are of one clock and never decrease, except those of angles_at().
   void set_faults(const PtzFaults& faults, double time_s);
 
-  // Moves at this speed for this time [s]; stops at the end of the travel.
+  // Moves at this speed for `lasts_s`; stops at the end of the travel.
   void drive(Axis axis, double speed_rad_s, double lasts_s, double time_s);
-  // The target is within the travel, the speed positive.
+  // Moves to a target, which must be within the travel. `speed_rad_s` > 0.
   void go_to(Axis axis, double target_rad, double speed_rad_s, double time_s);
   void stop(double time_s);
 
   bool answers(double time_s) const { return time_s >= booted_s_; }
   bool moves(double time_s) const;
-  // What it says of its position; nullopt: nothing.
+  // The position that the unit reports; nullopt: it reports none.
   std::optional<PanTilt> reported(double time_s) const;
 
   // The true shaft angles (pan left positive, tilt up positive), from fifteen seconds ago to now.
@@ -58,7 +59,7 @@ class PtzUnit {
   PtzUnitConfig config_;
   PtzFaults faults_;
   std::array<PtuAxis, 2> axes_;
-  std::array<double, 2> missed_rad_{};  // by the last move to a position
+  std::array<double, 2> missed_rad_{};  // position error of the last move to a position
   std::mt19937_64 random_;
   std::optional<PanTilt> frozen_;
   double booted_s_ = 0.0;

@@ -1,5 +1,5 @@
-// A simulated ONVIF PTZ camera on the network: its device by HTTP (Boost.Beast), in a thread of its
-// own.
+// A simulated ONVIF PTZ camera on the network: serves OnvifDevice by HTTP (Boost.Beast), in a
+// thread of its own.
 #pragma once
 
 #include <memory>

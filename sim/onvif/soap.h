@@ -16,31 +16,31 @@ constexpr const char* kMedia = "http://www.onvif.org/ver10/media/wsdl";
 constexpr const char* kPtz = "http://www.onvif.org/ver20/ptz/wsdl";
 }  // namespace onvif_space
 
-// The namespace that the element's prefix stands for, and its name without the prefix.
+// An XML element's namespace, and its name without the prefix.
 struct XmlName {
   std::string space, local;
 };
 XmlName name_of(pugi::xml_node element);
 
-// The first child of this name; an empty node if there is none.
+// The first child element with this name; an empty node if there is none.
 pugi::xml_node child_of(pugi::xml_node parent, std::string_view space, std::string_view local);
-// Its text without white space around it.
+// The element's text, without white space around it.
 std::string text_of(pugi::xml_node element);
 
 struct SoapFault {
   std::string code = "Sender";        // Sender, Receiver or VersionMismatch
-  std::vector<std::string> subcodes;  // of ONVIF's namespace of errors, the outermost first
+  std::vector<std::string> subcodes;  // from ONVIF's namespace of errors; the outermost first
   std::string reason;
   int http_status() const { return code == "Sender" ? 400 : 500; }
 };
 
-// A whole message around what is in its body.
+// The whole message with this body.
 std::string enveloped(std::string_view body);
 std::string enveloped(const SoapFault& fault);
 
-// A duration of XML Schema without years and months [s]; NaN: not one.
+// Converts a duration of XML Schema to seconds; NaN: not a duration, or one with years or months.
 double duration_s(std::string_view text);
-// A finite number; NaN: not one.
+// Converts text to a finite number; NaN: not a finite number.
 double number_of(std::string_view text);
 
 }  // namespace ols::sim

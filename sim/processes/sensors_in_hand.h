@@ -1,6 +1,6 @@
 // The inclinometer and the GNSS receiver of a station in simulated time: their readings, without a
-// wire (sim/sensors has the devices on their wires). Each step, at an instant of the monotonic
-// clock, gives the readings that are due. Pure.
+// serial line (sim/sensors simulates the devices with their lines). step() produces the readings
+// that are due at an instant of the monotonic clock. Pure.
 #pragma once
 
 #include <random>

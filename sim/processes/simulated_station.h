@@ -1,6 +1,6 @@
 // A station's whole process in simulated time: the control loop and the bus of ols-station. The
-// simulated unit and the simulated lens exchange bytes with it; the simulated camera hands it
-// frames, and its GPIO has the levels of emergency stop and re-arm button.
+// simulated PTU and lens exchange bytes with the process, and the simulated camera gives it frames.
+// The simulated GPIO lines have the levels of emergency stop and re-arm button.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,14 @@ class SimulatedStation {
  public:
   // A picture that the camera has sent, and the truth about it.
   struct Sent {
-    std::int64_t utime_us = 0;  // as the station stamps it
+    std::int64_t utime_us = 0;  // the station's stamp
     ExposureTruth exposure;
     ViewTruth view;
   };
 
   // Only camera, mount (a FLIR unit), lens, inclinometer, GNSS receiver and GPIO may be configured.
-  // A time service says that the station's clock is right. World and time must outlive the station.
+  // A simulated time service reports that the station's clock is synchronised. `world` and `time`
+  // must outlive the station.
   SimulatedStation(const World& world, std::size_t index, station::StationSettings settings,
                    SimulatedTime& time);
   ~SimulatedStation();
@@ -66,7 +67,7 @@ class SimulatedStation {
   // Of the process.
   CameraInHand* camera_ = nullptr;
   UnitInHand* ptu_ = nullptr;
-  LensInHand* lens_ = nullptr;                  // null: none is configured
+  LensInHand* lens_ = nullptr;                  // null: not configured
   InclinometerInHand* inclinometer_ = nullptr;  // likewise
   GnssInHand* gnss_ = nullptr;                  // likewise
   GpioInHand* gpio_ = nullptr;                  // likewise

@@ -1,5 +1,5 @@
-// Simulated time for the clocks of a whole process. A call that waits lets time pass, step by step;
-// at each step all participants do their share. Work in the background takes no time.
+// Simulated time for the clocks of a whole process. A call that waits advances the time step by
+// step; in each step all participants are called. Work in the background takes no time.
 #pragma once
 
 #include <atomic>
@@ -12,18 +12,19 @@ namespace ols::sim {
 
 class SimulatedTime final : public TimeSource {
  public:
-  // It is in use while this object lives; there may be one at a time. `start_utime_us`: UTC of the
-  // beginning.
+  // The process uses this clock while the object lives; only one may live at a time.
+  // `start_utime_us`: UTC at the beginning.
   explicit SimulatedTime(std::int64_t start_utime_us);
   ~SimulatedTime();
   SimulatedTime(const SimulatedTime&) = delete;
   SimulatedTime& operator=(const SimulatedTime&) = delete;
 
   // Adds a participant. Participants are called in each step, in the order in which they were
-  // added, with the time since the beginning [s]. They must not wait: time would not pass.
+  // added, with the time since the beginning [s]. A participant must not wait, because time would
+  // not advance.
   void at_each_step(std::function<void(double)> act) { acts_.push_back(std::move(act)); }
 
-  // Lets time pass until `over`; false: that did not happen within this time.
+  // Advances the time until `over` returns true; returns false if it did not within `most_s`.
   bool pass(
       double most_s, const std::function<bool()>& over = [] { return false; });
 

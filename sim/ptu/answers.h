@@ -17,16 +17,16 @@ class PtuAnswers {
   PtuAnswers(const PtuUnitConfig& config, const PtuSetup& setup, const PtuMotion& motion)
       : config_(config), setup_(setup), motion_(motion) {}
 
-  // The value of one axis, as the bare number. `what`: one of PORNXSDABUL.
+  // The value of one axis as a bare number. `what`: the query's second letter, one of PORNXSDABUL.
   std::string number(int axis, char what, double time_s) const;
-  // The same with the selected verbosity.
+  // The same value as an answer, with the selected verbosity.
   std::string query(int axis, char what, double time_s) const;
 
-  // The answer; nullopt: the command is not an identification query.
+  // The answer to an identification query; nullopt: the command is not one.
   std::optional<std::string> information(std::string_view command) const;
-  // Its output before it is ready.
+  // The unit's output at power-up, before it is ready.
   std::string banner() const;
-  // Whether its firmware has the preset commands.
+  // Whether the unit's firmware has the preset commands.
   bool has_presets() const;
 
  private:

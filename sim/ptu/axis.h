@@ -1,6 +1,6 @@
 // One axis of the simulated PTU: a stepper motor with trapezoidal speed profiles, in encoder
-// counts. It never loses steps by itself; PtuMotion::slip() makes it slip. Motion is kept as
-// closed-form segments, so that any instant can be evaluated without stepping.
+// counts. It never loses steps by itself; PtuMotion::slip() makes it slip. The motion is stored as
+// segments of constant acceleration: the position at any instant follows without stepping.
 #pragma once
 
 #include <deque>
@@ -13,28 +13,28 @@ class PtuAxis {
   struct Profile {
     double speed = 0.0;
     double acceleration = 0.0;
-    double base_speed = 0.0;  // starts and stops at this speed without a ramp
+    double base_speed = 0.0;  // the motor starts and stops at this speed without a ramp
   };
 
   PtuAxis(double position_counts, double time_s);
 
-  // Moves to `target_counts` from any motion, and ends there at rest. `time_s` may be in the
-  // future; later plans are dropped.
+  // Moves to `target_counts` from any state of motion, and comes to rest there. `time_s` may be in
+  // the future; motion planned after it is discarded.
   void move(double target_counts, const Profile& profile, double time_s);
 
   // Brakes to rest on the next whole count.
   void halt(const Profile& profile, double time_s);
 
-  // The axis slips at this instant, and continues from there.
+  // The axis slips by `counts` at this instant, and continues its motion from there.
   void shift(double counts, double time_s);
 
   double position(double time_s) const;  // [counts], continuous
   double velocity(double time_s) const;  // [counts/s]
-  // Since when, or from when on, it is at rest.
+  // When the axis came to rest or will come to rest.
   double rest_s() const { return segments_.back().start_s; }
   double target() const { return segments_.back().position; }
 
-  // Drops the history before this instant.
+  // Discards the history before this instant.
   void forget(double before_s);
 
  private:

@@ -20,7 +20,7 @@ class PtuConsole {
   struct AskedAngles {
     std::optional<double> at_s;
   };
-  // Handles a line. Returns the text to print (none for an empty line), or a query.
+  // Handles a line. Returns the text to print (empty for an empty line), or a query for angles.
   std::variant<std::string, AskedAngles> take(std::string_view line, double now_s);
 
   PtuFaults faults(double now_s) const { return plan_.at("", now_s).ptu; }

@@ -1,5 +1,6 @@
 // The simulated PTU's command interpreter: one command in, one answer out, and the motion of both
-// axes. It does not know the serial line; ptu_unit.cpp passes it commands in time.
+// axes. It knows nothing of the serial line; ptu_unit.cpp passes it each command when the command
+// is complete.
 #pragma once
 
 #include <optional>
@@ -17,7 +18,7 @@ namespace ols::sim {
 
 struct PtuAnswer {
   std::string text;      // with its `*` or `!`, without the line's end; empty: no answer
-  double ready_s = 0.0;  // earliest time of the answer: some commands wait for the motion
+  double ready_s = 0.0;  // earliest time of the answer; some commands wait for the end of a motion
 };
 
 class PtuController {
@@ -26,24 +27,25 @@ class PtuController {
   PtuController(const PtuController&) = delete;
   PtuController& operator=(const PtuController&) = delete;
 
-  // Power-up: settings as saved, homing if selected. Returns the output at the end of power-up;
-  // banner() is the output at its beginning.
+  // Powers up with the saved settings; homes if selected. Returns the output at the end of
+  // power-up; banner() is the output at the beginning.
   PtuAnswer power_up(double time_s);
-  // A short power failure: the unit loses its position.
+  // A short power failure, in which the unit loses its position.
   PtuAnswer power_cycle(double time_s);
   std::string banner() const { return answers_.banner(); }
   void home_at_power_up(bool homes) { setup_.home_at_power_up(homes); }
 
   PtuAnswer execute(std::string_view command, double time_s);
 
-  // A byte has arrived: ends a scan that began before it.
+  // A byte has arrived: it ends a scan that began earlier.
   void interrupt(double time_s) { scan_.interrupt(time_s); }
   bool scanning() const { return scan_.running(); }
 
-  // Advances the unit's own actions to an instant: the legs of a scan.
+  // Plans the legs of a scan up to an instant.
   void advance(double time_s) { scan_.advance(time_s); }
 
-  // Limit hits up to this time, each returned once; and when the next hit is due.
+  // The outputs for limit hits up to this time, each returned once. next_token_s(): when the next
+  // one is due.
   std::vector<PtuToken> take_tokens(double time_s);
   std::optional<double> next_token_s() const { return motion_.next_token_s(); }
 
@@ -53,13 +55,13 @@ class PtuController {
   }
   int baud() const { return setup_.baud(); }
 
-  // The true position of the mechanism [counts of PtuUnitConfig's resolution]; the unit's counter
-  // may differ.
+  // The true position of the mechanism [counts of PtuUnitConfig's resolution]; the unit's own
+  // counter may differ.
   double position_counts(int axis, double time_s) const {
     return motion_.mechanism_steps(axis, time_s);
   }
 
-  // The mechanism slips; the unit's counter does not notice.
+  // The mechanism slips; the unit's counter does not change.
   void slip(int axis, int counts, double time_s) { motion_.slip(axis, counts, time_s); }
   void switch_echo_on() { setup_.switch_echo_on(); }
 

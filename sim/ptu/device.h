@@ -1,4 +1,5 @@
-// The PTU under a simulated station's camera: the simulated unit, or a real one on its line.
+// The unit that carries a simulated station's camera: a simulated unit, or a real PTU on its serial
+// line.
 #pragma once
 
 #include "geometry/kinematic_chain.h"
@@ -13,7 +14,8 @@ class PtuDevice {
   // From any thread.
   virtual void set_faults(const PtuFaults& faults) = 0;
 
-  // Waits briefly until the angles at that instant of CLOCK_MONOTONIC [s] are final.
+  // Waits until angles_at() for this instant of CLOCK_MONOTONIC [s] will no longer change; gives up
+  // after a short time.
   virtual void await(double /*monotonic_s*/) {}
 
   // Shaft angles at an instant of CLOCK_MONOTONIC [s], from two seconds ago to now. From any

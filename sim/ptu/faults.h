@@ -1,4 +1,4 @@
-// The simulated PTU, with the faults of the unit and of its line. Pure.
+// The simulated PTU with faults of the unit and of its serial line. Pure.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class FaultyPtuUnit {
   std::optional<double> next_output_s() const { return unit_.next_output_s(); }
   PanTilt angles_at(double time_s) const { return unit_.angles_at(time_s); }
 
-  // The line's effect on the unit's answers, which are true themselves.
+  // The faults that the line adds to the unit's answers.
   const PtuReplyFaults& replies() const { return replies_; }
 
  private:

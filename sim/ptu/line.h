@@ -1,5 +1,5 @@
 // A simulated PTU on a pseudo terminal in real time; ols-station opens it as its serial device. The
-// line outlives clients: one may close the device and another open it again.
+// line stays when a client closes the device: it or another client may open the device again.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class PtuLine : public PtuDevice {
 
  private:
   void run(const std::stop_token& stop);
-  void wait();  // until bytes arrive or the unit has some
+  void wait();  // until bytes arrive or the unit has bytes to send
   void replug(bool gone);
   void advance();
 

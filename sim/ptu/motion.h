@@ -13,7 +13,7 @@
 
 namespace ols::sim {
 
-// `!P`, `!T`: neither a reply nor the end of a line.
+// `!P` or `!T`, the unit's output at a limit hit. It is no reply and does not end a line.
 struct PtuToken {
   double time_s = 0.0;
   std::string text;
@@ -24,15 +24,15 @@ class PtuMotion {
   // `settings` must outlive it; homing applies the step mode, which changes the size of a count.
   PtuMotion(const PtuUnitConfig& config, PtuSettings& settings, double power_up_s);
 
-  // Power-up: factory modes, no motion planned.
+  // Powers up: selects the factory's modes, without any planned motion.
   void power_up();
-  // Power failure: the unit stops, and loses its position.
+  // The power fails: the unit stops and loses its position.
   void power_off(double time_s);
 
-  // The answer; nullopt: not a motion command.
+  // Executes a motion command and returns the answer; nullopt: the command is not one.
   std::optional<std::string> execute(std::string_view command, bool verbose, double time_s);
 
-  // Answers to commands of one axis [counts].
+  // Execute commands to one axis, in counts, and return the answer.
   std::string set_position(int axis, int target, double time_s);
   std::string set_speed(int axis, int speed, double time_s);
   std::string set_parameter(int axis, char what, int value, double time_s);
@@ -40,16 +40,16 @@ class PtuMotion {
   void start(int axis, double target_counts, double time_s);
   void start_slaved(double time_s);
 
-  // Homes, tilt first. Without homing, the counters start at the mechanism's position. Returns the
-  // time at which it ends.
+  // Homes, tilt first. An axis that is not homed starts counting at the mechanism's position.
+  // Returns the time at which homing ends.
   double home(bool pan, bool tilt, double time_s);
   double home_together(double time_s);
 
-  // Position in the unit's counts, from its assumed middle.
+  // The position in the unit's counts, from the middle that the unit assumes.
   double position(int axis, double time_s) const;
   double target(int axis) const;
   double velocity(int axis, double time_s) const;
-  int least(int axis) const;  // limits of commands
+  int least(int axis) const;  // limits of commanded positions, in counts
   int greatest(int axis) const;
   int factory_least(int axis) const { return axes_[at(axis)].least / axes_[at(axis)].divisor; }
   int factory_greatest(int axis) const {
@@ -59,32 +59,33 @@ class PtuMotion {
   int steps_a_count(int axis) const { return axes_[at(axis)].divisor; }
   bool homed(int axis) const { return axes_[at(axis)].homed; }
   double rest_s(int axis) const { return axes_[at(axis)].motion.rest_s(); }
-  // The true position of the mechanism [steps]; the unit's counter may differ.
+  // The true position of the mechanism [steps]; the unit's own counter may differ.
   double mechanism_steps(int axis, double time_s) const {
     return axes_[at(axis)].motion.position(time_s);
   }
 
-  // The mechanism slips; the unit's counter does not notice.
+  // The mechanism slips; the unit's counter does not change.
   void slip(int axis, int slipped_steps, double time_s);
 
-  // Limit hits up to this time; each is returned once.
+  // The outputs for limit hits up to this time, each returned once.
   std::vector<PtuToken> take_tokens(double time_s);
-  // When the next hit is due.
+  // When the next output is due.
   std::optional<double> next_token_s() const;
 
   void forget(double before_s);
 
  private:
   enum class Limits { kFactory, kUser, kOff };
-  // Positions of the mechanism are in steps of PtuUnitConfig's resolution, from the middle of its
-  // travel. The unit's counts are `divisor` steps each, from its assumed middle.
+  // Positions of the mechanism are in steps of PtuUnitConfig's resolution, from the middle of the
+  // travel. A count of the unit is `divisor` steps; counts begin at the middle that the unit
+  // assumes.
   struct Axis {
     PtuAxis motion;
     int least, greatest;  // travel [steps]
     int divisor;          // steps per count
     double origin;        // origin of the counts [steps]
     bool homed;
-    std::optional<double> slaved;  // target that waits for A or I [steps]
+    std::optional<double> slaved;  // target [steps] that waits for the command A or I
     std::optional<double> hit_s;   // when the motion hits its limit
   };
 

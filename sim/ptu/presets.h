@@ -16,7 +16,7 @@ class PtuPresets {
   // `motion` must outlive it.
   explicit PtuPresets(PtuMotion& motion) : motion_(motion) {}
 
-  // The answer; nullopt: not a preset command.
+  // Executes a preset command and returns the answer; nullopt: the command is not one.
   std::optional<std::string> execute(std::string_view command, double time_s);
 
  private:

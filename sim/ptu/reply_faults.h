@@ -13,12 +13,13 @@ class PtuReplyFaults {
  public:
   explicit PtuReplyFaults(std::uint64_t seed) : random_(seed) {}
 
-  // garble_share: share of the replies (lines) with one byte flipped in one bit, lost, or preceded
-  // by an extra one. lost_every_s: interval of lost replies from `time_s` on (0: none). Setting an
-  // unchanged value restarts nothing.
+  // garble_share: share of the replies (lines) in which one byte is lost, is preceded by an extra
+  // byte, or has one bit flipped. lost_every_s: interval at which one reply is lost, from `time_s`
+  // on (0: never). An unchanged interval is not restarted.
   void set(double garble_share, double lost_every_s, double time_s);
 
-  // The bytes as they arrive. A reply may come in any number of pieces.
+  // Applies the faults and returns the bytes that arrive. A reply may be passed in any number of
+  // pieces.
   std::string pass(std::string_view bytes, double time_s);
 
   std::uint64_t garbled() const { return garbled_; }

@@ -1,4 +1,4 @@
-// The simulated PTU's scan ("monitor"): it moves to and fro on its own until a byte arrives.
+// The simulated PTU's scan ("monitor"): the unit moves to and fro until a byte arrives.
 #pragma once
 
 #include <array>
@@ -14,20 +14,21 @@ namespace ols::sim {
 
 class PtuScan {
  public:
-  // Both must outlive it.
+  // `setup` and `motion` must outlive this object.
   PtuScan(PtuSetup& setup, PtuMotion& motion) : setup_(setup), motion_(motion) {}
 
-  // Power-up.
+  // Powers up: no scan runs, and the ends of the last one are forgotten.
   void power_up();
 
-  // The answer; nullopt: not a scan command.
+  // Executes a scan command and returns the answer; nullopt: the command is not one.
   std::optional<std::string> execute(std::string_view command, bool e_series, double time_s);
-  // Scans between these ends [counts]: pan, or pan and tilt; empty: the whole range of pan.
+  // Scans between these ends [counts]: two of pan, or two of pan and two of tilt; empty: the whole
+  // range of pan.
   std::string start(const std::vector<int>& ends, double time_s);
-  // Ends the scan without returning home: another command needs the axis.
+  // Ends the scan of one axis without moving it home, because another command uses the axis.
   void end(int axis) { sweeps_[at(axis)].reset(); }
 
-  // A byte has arrived: ends a scan that began before it.
+  // A byte has arrived: it ends a scan that began earlier; the axes move home.
   void interrupt(double time_s);
   // Plans the legs up to an instant.
   void advance(double time_s);

@@ -14,11 +14,11 @@ constexpr const char* ptu_axis_name(int axis) { return axis == 0 ? "Pan" : "Tilt
 
 enum class PtuFeedback { kVerbose, kTerse, kOff };
 
-struct PtuAxisSettings {  // in the unit's counts
+struct PtuAxisSettings {  // positions and speeds in the unit's counts
   int speed, acceleration, base_speed, upper_speed, lower_speed;
   char hold_power, move_power, step_mode;
   int user_least, user_greatest;
-  int home_speed;  // of RPS, RTS [counts/s]
+  int home_speed;  // [counts/s] of the commands RPS and RTS
 };
 
 struct PtuSettings {

@@ -1,5 +1,5 @@
-// The simulated PTU's settings and the commands that switch, select and save them. Nothing moves
-// here.
+// The simulated PTU's settings, and the commands that change, select and save them. None of these
+// commands moves the unit.
 #pragma once
 
 #include <array>
@@ -15,15 +15,17 @@ class PtuSetup {
  public:
   explicit PtuSetup(const PtuUnitConfig& config);
 
-  // Power-up: all as saved.
+  // Powers up: restores the saved settings.
   void power_up();
 
-  // The answer; nullopt: not a settings command.
+  // Executes a settings command and returns the answer; nullopt: the command is not one.
   std::optional<std::string> execute(std::string_view command);
 
-  // Of one axis. `what` is the command without its letter: H or M, with or without a level.
+  // Sets or queries the power of one axis. `what`: the command without the axis letter: H or M,
+  // with or without a level.
   std::string power(int axis, std::string_view what);
-  // NU or XU, with or without a value [counts], which must be within the factory's limits.
+  // Sets or queries a user limit of one axis. `what`: NU or XU, with or without a value [counts],
+  // which must be within the factory's limits.
   std::string user_limit(int axis, std::string_view what, int factory_limit);
 
   void scan_at_power_up(bool scans);
@@ -50,8 +52,8 @@ class PtuSetup {
 
   PtuUnitConfig config_;
   PtuSettings settings_, saved_;
-  std::array<bool, 2> homes_;  // which axes home at power-up; saved at once
-  bool selected_ = true;       // of several units on one line, this one is addressed
+  std::array<bool, 2> homes_;  // which axes home at power-up; saved immediately
+  bool selected_ = true;       // whether this one of several units on the line is addressed
   int baud_, baud_at_power_up_;
 };
 

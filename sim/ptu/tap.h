@@ -1,6 +1,5 @@
-// Hardware in the loop: a real PTU's serial device, with a pseudo terminal in between for the
-// station. Bytes pass unchanged in both directions; the positions among them show where the unit
-// points.
+// Hardware in the loop: a pseudo terminal between the station and a real PTU's serial device. Bytes
+// pass unchanged in both directions. The unit's replies to position queries show where it points.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +11,31 @@
 namespace ols::sim {
 
 struct PtuTapConfig {
-  std::string device;         // of the unit, for example /dev/ttyUSB0
-  int baud = 9600;            // until the station sends: then its rate applies
+  std::string device;  // of the unit, for example /dev/ttyUSB0
+  int baud = 9600;     // until the station has opened the line; then the station's rate applies
   double step_rad = 5.61e-5;  // per count, until the unit has reported it
 };
 
 class PtuTap : public PtuDevice {
  public:
-  // `link`: the station's line, while the unit's device exists. Waits for a missing device. Throws
-  // std::system_error if the link cannot be made.
+  // `link`: path of the station's line, which exists while the unit's device does. Waits for a
+  // missing device. Throws std::system_error if the link cannot be made.
   PtuTap(const PtuTapConfig& config, std::uint64_t seed, const std::string& link);
   ~PtuTap() override;
 
   // Faults of the line only: faults of a real unit cannot be simulated.
   void set_faults(const PtuFaults& faults) override;
 
-  // A unit reports its position some thirty times a second. Half of the time, a camera draws for an
-  // instant later than the last report.
+  // A unit reports its position about thirty times a second. About half of the pictures are drawn
+  // for an instant later than the last report.
   void await(double monotonic_s) override;
 
   // Based on the unit's reports so far.
   PanTilt angles_at(double monotonic_s) override;
 
-  struct Counters {                              // only increase
-    std::uint64_t opened = 0, failures = 0;      // of the unit's device
-    std::uint64_t readings = 0, mismatched = 0;  // of positions
+  struct Counters {                          // only increase
+    std::uint64_t opened = 0, failures = 0;  // how often the unit's device was opened, and failed
+    std::uint64_t readings = 0, mismatched = 0;  // as PtuTapWatch::Counters
   };
   Counters counters() const;
 

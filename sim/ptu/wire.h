@@ -1,4 +1,4 @@
-// The simulated PTU's end of its serial line: which byte is on it at which time.
+// The simulated PTU's end of the serial line: which byte is on the line at which time.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class PtuWire {
  public:
   struct Byte {
     char byte;
-    double time_s;  // its last bit was on the line
+    double time_s;  // when its last bit was on the line
     int baud;
   };
   struct Command {
@@ -24,23 +24,24 @@ class PtuWire {
 
   explicit PtuWire(std::uint64_t noise_seed) : noise_(noise_seed) {}
 
-  // Clears the line from this instant on.
+  // Removes all bytes from the line; it is free from this instant on.
   void clear(double time_s);
   void set_baud(int baud) { baud_ = baud; }
-  // With a rate other than the unit's every byte becomes noise; 0: always right.
+  // Sets the rate of the master's port. If it differs from the unit's rate, every byte becomes
+  // noise. 0: always equal.
   void set_master_baud(int baud) { master_baud_ = baud; }
 
-  // Bytes from the master; the first begins at `time_s`.
+  // Takes bytes from the master; the transmission of the first begins at `time_s`.
   void receive(std::string_view bytes, double time_s);
   const std::deque<Byte>& input() const { return input_; }
   // When the first waiting command was complete.
   std::optional<double> command_s() const;
-  // Requires a waiting command.
+  // Returns the first waiting command; there must be one.
   Command take_command();
 
-  // Puts text on the line, in order, not before `time_s`.
+  // Sends text after all earlier texts, not before `time_s`.
   void say(const std::string& text, double time_s);
-  // The bytes on the line by `time_s`, each returned once.
+  // The bytes that have been sent completely by `time_s`. Each byte is returned once.
   std::string transmit(double time_s);
   std::optional<double> next_output_s() const;
 
@@ -50,8 +51,8 @@ class PtuWire {
 
   std::mt19937_64 noise_;
   int baud_ = 0, master_baud_ = 0;
-  double line_free_s_ = 0.0;   // the unit's transmitter
-  double input_free_s_ = 0.0;  // the master's
+  double line_free_s_ = 0.0;   // when the unit's transmitter becomes free
+  double input_free_s_ = 0.0;  // when the master's transmitter becomes free
   std::deque<Byte> input_, output_;
 };
 

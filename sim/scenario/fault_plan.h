@@ -1,5 +1,5 @@
-// Which fault is active when: from a scenario's [[fault]] tables, and by commands while the site
-// runs. Pure; deterministic.
+// Decides which faults are active at which time. The faults come from a scenario's [[fault]]
+// tables, and from commands while the site runs. Pure; deterministic.
 #pragma once
 
 #include <limits>
@@ -21,7 +21,7 @@ struct Fault {
 
 std::vector<std::string> fault_kinds();
 
-// The error in a fault, and the key concerned; both empty for a valid one.
+// What is wrong with a fault, and the key concerned; both are empty for a valid fault.
 struct FaultProblem {
   std::string key, what;
 };
@@ -29,15 +29,15 @@ FaultProblem check(const Fault& fault);
 
 class FaultPlan {
  public:
-  // Throws std::invalid_argument with the result of check().
+  // Throws std::invalid_argument, with the text from check(), if the fault is invalid.
   void add(const Fault& fault);
 
-  // A command applies from now on. With for_s = 0 it ends current and planned faults of its kind
-  // ("all": of every kind) at its station (empty: at all stations).
+  // Applies a command from `now_s` on. A command with for_s = 0 ends the current and planned faults
+  // of its kind ("all": of every kind) at its station (empty: at all stations).
   void command(Fault fault, double now_s);
 
-  // The faults of one station at one instant. If several faults of one kind overlap, the one that
-  // began last counts.
+  // The faults of one station at one instant. If faults of one kind overlap, the one that began
+  // last applies.
   StationFaults at(std::string_view station, double time_s) const;
 
  private:

@@ -8,7 +8,7 @@ namespace ols::sim {
 
 OnvifConfig onvif_config(const Scenario& scenario, const StationScenario& station);
 
-// Of its video, or of that of any camera by RTSP.
+// The address of the video of this camera, or of any other RTSP camera.
 std::string stream_address(const StationScenario& station);
 
 }  // namespace ols::sim

@@ -1,5 +1,5 @@
-// The landmarks of a scenario, in UTM as in a land register, and how the stations find their
-// headings by sighting them.
+// Reads the landmarks of a scenario, in UTM as in a land register, and how the stations find their
+// headings by sighting landmarks.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace ols::sim {
 
-inline constexpr double kFar_m = 1e6;  // a site is no larger than this
+inline constexpr double kFar_m = 1e6;  // limit of coordinates: a site is never larger than this
 
 struct UtmPlace {
   Utm utm{.zone = 0};
@@ -18,7 +18,7 @@ struct UtmPlace {
 };
 
 std::vector<config::Row> utm_rows(UtmPlace& place);
-// Throws ConfigError for a place outside its zone.
+// Throws ConfigError for a place outside its UTM zone.
 Geodetic geodetic(ConfigTable& table, const UtmPlace& place);
 
 config::Section stationing_section(StationingScenario& stationing);

@@ -1,4 +1,4 @@
-// The land of a scenario: [relief].
+// The keys of a scenario's land: [relief].
 #pragma once
 
 #include "base/config/config_section.h"

@@ -1,4 +1,4 @@
-// The motion of a scenario's target: [target.trajectory].
+// The keys for the motion of a scenario's target: [target.trajectory].
 #pragma once
 
 #include <memory>
@@ -10,7 +10,8 @@
 
 namespace ols::sim {
 
-// For a site whose origin was read before. Files are relative to `folder`.
+// Where the trajectory is: `origin`, the site's, must have been read already; file names are
+// relative to `folder`.
 struct TrajectoryPlace {
   const Geodetic& origin;
   std::string folder;

@@ -1,12 +1,12 @@
-// Derives seeds of unrelated random streams from one seed. Pure.
+// Derives the seeds of independent random streams from one seed. Pure.
 #pragma once
 
 #include <cstdint>
 
 namespace ols::sim {
 
-// A seed for one purpose in one run. Different tags give unrelated streams, and so do neighbouring
-// seeds (SplitMix64).
+// The seed for one purpose (`tag`) in one run (`seed`). Different tags give independent streams,
+// and so do neighbouring seeds (SplitMix64).
 inline std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t tag) {
   std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (tag + 1);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

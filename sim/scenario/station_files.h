@@ -1,5 +1,5 @@
 // Writes the configuration file of each station as a field team would: with the surveyed and
-// calibrated geometry (not the true one) and the sigmas of its errors.
+// calibrated geometry instead of the true geometry, and with the sigmas of its errors.
 #pragma once
 
 #include <optional>
@@ -13,26 +13,29 @@ namespace ols::sim {
 
 struct StationFileOptions {
   std::string lcm_url;
-  std::string line_folder;  // where the simulator links the serial lines
-  // Folder of the stations' persisted state; created. New stations are released, with a checked
-  // reference. Empty: nothing is persisted.
+  std::string line_folder;  // where the simulator puts the links to the serial lines
+  // Folder of the stations' persisted state, which is created. A station without persisted state
+  // starts without an emergency stop and with a trusted reference. Empty: the stations persist
+  // nothing.
   std::string state_folder;
 };
 
 std::string station_file(const World& world, std::size_t station,
                          const StationFileOptions& options);
 
-// FOLDER/<station>.toml for every station; creates the folder. Throws std::system_error.
+// Writes FOLDER/<station>.toml for every station; creates the folder. Throws std::system_error.
 void write_station_files(const World& world, const StationFileOptions& options,
                          const std::string& folder);
 
-// The files of `ols-calibrate adjust` for every station (sim/world/calibration_round.h):
-// FOLDER/ID.toml, FOLDER/ID.observations.jsonl, FOLDER/ID.references.csv.
+// Writes the input files of `ols-calibrate adjust` for every station
+// (sim/world/calibration_round.h): FOLDER/ID.toml, FOLDER/ID.observations.jsonl,
+// FOLDER/ID.references.csv.
 void write_calibration_rounds(const World& world, const StationFileOptions& options,
                               const std::string& folder);
 
-// The calibrations FOLDER/ID of `ols-calibrate adjust`, by station; nullopt where there is none.
-// Throws as edge/calibration/calibration_folder.h.
+// Reads the calibrations that `ols-calibrate adjust` has written into FOLDER/ID, by station;
+// nullopt: the station has none. Throws like the functions of
+// edge/calibration/calibration_folder.h.
 std::vector<std::optional<StationCalibration>> read_calibrations(const World& world,
                                                                  const std::string& folder);
 

@@ -1,4 +1,5 @@
-// The true values of each simulated station, to judge a calibration's results.
+// Writes the true values of each simulated station, against which a calibration's results are
+// tested.
 #pragma once
 
 #include <string>
@@ -7,11 +8,11 @@
 
 namespace ols::sim {
 
-// One JSON object: angles in degrees (`_deg`), metres, pixels; with the names of
-// docs/calibration.md.
+// One JSON object with the names of docs/calibration.md; angles in degrees (`_deg`), metres,
+// pixels.
 std::string station_truth(const StationTruth& station);
 
-// FOLDER/ID.json for every station; creates the folder. Throws std::system_error.
+// Writes FOLDER/ID.json for every station; creates the folder. Throws std::system_error.
 void write_station_truths(const World& world, const std::string& folder);
 
 }  // namespace ols::sim

@@ -19,17 +19,17 @@ namespace ols::sim {
 struct GnssLineConfig {
   Geodetic antenna;       // true position
   double geoid_m = 44.0;  // height of the geoid above the ellipsoid there
-  // 1-sigma of the error, which wanders within a minute like multipath. The receiver states it
-  // correctly.
-  double sd_horizontal_m = 0.01;  // of each of east and north
+  // 1-sigma of the error. Like multipath, the error changes within about a minute. The receiver
+  // states this sigma.
+  double sd_horizontal_m = 0.01;  // in each of east and north
   double sd_up_m = 0.015;
-  int quality = 4;  // of GGA: RTK fixed
+  int quality = 4;  // of the GGA sentence; 4: RTK fixed
   double rate_hz = 2.0;
 };
 
 class GnssLine {
  public:
-  // `utime_us`: true UTC now; called by the line's thread. `link`: as for Pty. Throws
+  // `utime_us`: returns true UTC now; the line's thread calls it. `link`: as for Pty. Throws
   // std::system_error.
   GnssLine(const GnssLineConfig& config, std::function<std::int64_t()> utime_us, std::uint64_t seed,
            const std::string& link = "");
@@ -41,7 +41,7 @@ class GnssLine {
  private:
   void run(const std::stop_token& stop);
   void send_epoch();
-  void wander();  // first-order Gauss-Markov process
+  void wander();  // advances the error, a first-order Gauss-Markov process
   std::string spoilt(const std::string& sentences, double share);
   Eigen::Vector3d normals();
   GnssFaults current_faults();

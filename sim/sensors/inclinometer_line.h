@@ -1,6 +1,6 @@
 // A DPG2 inclinometer on a pseudo terminal in real time; ols-station opens it as its serial device.
-// It streams from power-up. 's' stops the stream, 'S' starts it, 'R' requests one reading, 'V' the
-// version.
+// It streams its readings from power-up on. The command 's' stops the stream, 'S' starts it, 'R'
+// requests one reading, and 'V' requests the version.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,12 @@ namespace ols::sim {
 struct InclinometerLineConfig {
   // The tilt of the tripod's head, as in the kinematic chain.
   double tilt_x_rad = 0.0, tilt_y_rad = 0.0;
-  double zero_sd_rad = 0.0;   // of each axis' zero, drawn once
+  double zero_sd_rad = 0.0;   // of the zero error of each axis, drawn once
   double noise_sd_rad = 0.0;  // of each reading
   double rate_hz = 10.0;
 };
 
-// The lines of one reading: degrees with a resolution of 0.001.
+// The text lines of one reading, in degrees with a resolution of 0.001.
 std::string dpg2_lines(double x_rad, double y_rad);
 
 class InclinometerLine {
@@ -39,7 +39,7 @@ class InclinometerLine {
  private:
   void run(const std::stop_token& stop);
   void obey(char command, const InclinometerFaults& now);
-  // Each axis of the sensor shows its own inclination to the horizontal.
+  // One reading. Each axis of the sensor measures its own inclination to the horizontal.
   std::string reading(bool stuck);
   void send(std::string text, const InclinometerFaults& now);
   InclinometerFaults current_faults();

@@ -1,4 +1,4 @@
-// The sentences (NMEA 0183 4.10) of one epoch of a multi-system receiver. Pure.
+// Writes the sentences (NMEA 0183 4.10) that a multi-system receiver sends for one epoch. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,11 @@ namespace ols::sim {
 struct NmeaEpoch {
   std::int64_t utime_us = 0;
   bool has_fix = true;  // false: no position in any sentence
-  int quality = 4;      // of GGA: 1 plain, 2 differential, 4 RTK fixed, 5 RTK float
+  int quality = 4;      // of GGA. 1: autonomous, 2: differential, 4: RTK fixed, 5: RTK float
   Geodetic antenna;
   double geoid_m = 44.0;                           // height of the geoid above the ellipsoid
-  Eigen::Vector3d sd_enu_m{0.01, 0.01, 0.015};     // stated
-  int gps_satellites = 8, glonass_satellites = 6;  // in view and used; at most 12 each
+  Eigen::Vector3d sd_enu_m{0.01, 0.01, 0.015};     // 1-sigma that the receiver states
+  int gps_satellites = 8, glonass_satellites = 6;  // in view and used; at most 12 of each
 };
 
 // "$" text "*" checksum CR LF.

@@ -1,6 +1,6 @@
-// A pseudo terminal in place of a serial device: a product process opens its slave, or a link to
-// it. The line outlives clients: one may close the device and another open it again. For one thread
-// at a time.
+// A pseudo terminal in place of a serial device: a product process opens the terminal's slave, or a
+// link to it. The line stays when a client closes the device: it or another client may open the
+// device again. Only one thread at a time may use this object.
 #pragma once
 
 #include <memory>
@@ -17,28 +17,28 @@ class Pty {
   ~Pty();
   Pty(Pty&&) noexcept;
 
-  // The slave, for example /dev/pts/3; empty while unplugged.
+  // The path of the slave, for example /dev/pts/3; empty while unplugged.
   const std::string& device() const;
 
-  // Simulates unplugging a USB adapter and plugging it in again. The link disappears, and a client
-  // with the open device gets a hang-up; then there is a new device under the same link. Repeating
-  // either has no effect.
+  // Simulate unplugging a USB adapter and plugging it in again. After unplug() the link is gone,
+  // and a client that has opened the device gets a hang-up. After plug() there is a new device with
+  // the same link. Calling either of them again has no effect.
   void unplug();
   void plug();
   bool plugged() const;
 
-  // Waits until a client has written something, at most timeout_s.
+  // Waits until a client has written something, but at most `timeout_s`.
   void wait(double timeout_s) const;
 
   // The bytes written by clients so far; does not wait. Empty while unplugged.
   std::string read();
 
-  // The rate that the current or last client has set on its port; 0 while unplugged, or for an
-  // unusual rate.
+  // The baud rate that the current or last client has set; 0 while unplugged, or for an unusual
+  // rate.
   int client_baud() const;
 
-  // Sends to a client with the open device. Without a reader, bytes are lost once the terminal's
-  // buffer is full. While unplugged, they are lost at once.
+  // Sends to the client that has opened the device. If no client reads, bytes are lost once the
+  // terminal's buffer is full. While unplugged, all bytes are lost.
   void write(std::string_view bytes);
 
  private:

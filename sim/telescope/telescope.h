@@ -1,8 +1,10 @@
-// A simulated telescope mount as its INDI driver shows it: XML elements and time in, XML elements
-// out. Its axes are those of PtzUnit; pan is minus the hour angle, tilt the declination. Pure.
+// A simulated telescope mount with the interface of its INDI driver: XML elements and time in, XML
+// elements out. A PtzUnit simulates its axes: pan is minus the hour angle, tilt is the declination.
+// Pure.
 //
-// It has the habits of INDI's own simulator: an abort ends a slew and leaves tracking on, a rate
-// into the other direction is refused while it tracks, and a rate counts only while it tracks.
+// It behaves like INDI's own simulator. An abort ends a slew and leaves tracking on. While the
+// mount tracks, a rate in the opposite direction is refused. A new rate has no effect while it does
+// not track.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +27,10 @@ class Telescope {
  public:
   Telescope(const TelescopeConfig& config, std::uint64_t seed, double time_s);
 
-  // One element of a client. The answer may be several elements, or none. What is no element of
-  // INDI is ignored, as drivers do.
+  // Answers one element from a client with any number of elements. Like real drivers, ignores what
+  // is not an element of INDI.
   std::string answer(const std::string& element, double time_s, double utc_s);
-  // What it says of its position by itself, every interval_s().
+  // The report of the position that the driver sends without a request, every interval_s().
   std::string report(double time_s, double utc_s);
   double interval_s() const { return interval_s_; }
 
@@ -47,7 +49,7 @@ class Telescope {
   TelescopeConfig config_;
   PtzUnit unit_;
   bool connected_ = false, tracks_ = false, parked_ = false, slews_ = false;
-  indi::TrackRate rate_, ordered_;  // that it tracks at; the last one that was ordered
+  indi::TrackRate rate_, ordered_;  // rate of tracking; last ordered rate
   double interval_s_ = 1.0;
 };
 

@@ -1,7 +1,7 @@
 // The paper's rectification targets in the simulated camera's picture: level lines, a cross, two
-// rulers. A person puts up each target where the unit looks at that moment, with the small errors
-// of level, pointer and tape. From then on the target stays in place. Written from
-// docs/calibration.md, without the code that reads the targets.
+// rulers. A person puts up each target where the camera points at that moment, with the small
+// errors of spirit level, pointer and tape. From then on the target stays in place. Written from
+// docs/calibration.md, without the product's code that reads the targets.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,15 +17,16 @@ struct Section;
 }
 namespace ols::sim {
 
-// Where a person puts the targets, measured from the pan axis, and the person's errors.
+// Distances from the pan axis at which a person puts the targets, and the person's errors.
 struct BoardsScenario {
   double level_line_m = 30.0;
-  double level_error_rad = 0.0;  // of the lines, right side down > 0
+  double level_error_rad = 0.0;  // roll of the lines, positive if the right side is low
   double cross_m = 25.0;
   double cross_error_m = 0.0;  // to the right of the plane perpendicular to the tilt axis
   double near_ruler_m = 20.0, far_ruler_m = 40.0;
-  double ruler_error_m = 0.0;  // height of the farther zero above the nearer one
-  // The lens is focused at infinity: the width of a point's blur is this divided by its distance.
+  double ruler_error_m = 0.0;  // height of the farther ruler's zero above the nearer ruler's
+  // The lens is focused at infinity. The blur of a point [px] is this divided by the point's
+  // distance [m].
   double blur_px_m = 0.0;
 };
 
@@ -35,7 +36,7 @@ config::Section boards_section(BoardsScenario& boards);
 struct Board {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // [m] in GROUND: east, north, up
   Eigen::Vector3d right = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitZ();
-  cv::Mat1b gray;  // its print, top row first; kTexel_m each
+  cv::Mat1b gray;  // its print, top row first; a texel is kTexel_m wide
   double blur_px = 0.0;
   static constexpr double kTexel_m = 0.001;
 };
@@ -50,8 +51,8 @@ class Boards {
   Boards(const BoardsScenario& scenario, const ChainParameters& chain, double trunnion_rad)
       : scenario_(scenario), chain_(chain), trunnion_rad_(trunnion_rad) {}
 
-  // Puts up new targets where the unit looks with its shafts at these angles, and removes targets
-  // that `by_hand` no longer has.
+  // Puts up the targets that are new in `by_hand`, where the camera points with the shafts at these
+  // angles. Removes targets that are no longer in `by_hand`.
   void put_up(const ByHand& by_hand, const CameraIntrinsics& camera, const PanTilt& shafts);
 
   void draw(const CameraIntrinsics& camera, const Eigen::Isometry3d& enu_cam, cv::Mat& gray) const;

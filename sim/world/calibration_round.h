@@ -1,6 +1,6 @@
 // The observations for a station's calibration in the simulated world: frames of stars, and
-// surveyed landmarks, one of which has moved. They have the form of the files of `ols-calibrate
-// adjust`.
+// surveyed landmarks, one of which has moved. They have the format of the input files of
+// `ols-calibrate adjust`.
 #pragma once
 
 #include <string>
@@ -14,11 +14,12 @@ struct CalibrationRound {
   std::string references;    // CSV
 };
 
-// The air and the earth at that time; `ols-calibrate adjust` gets the same values.
+// Air pressure, air temperature and UT1 - UTC at that time; `ols-calibrate adjust` gets the same
+// values.
 inline constexpr double kRoundPressure_hPa = 980.0, kRoundTemperature_degC = 10.0;
 inline constexpr double kRoundUt1MinusUtc_s = 0.03;
 
-// Both use the true unit and pose of the world; deterministic.
+// The observations of one station, with its true unit and pose in this world; deterministic.
 CalibrationRound calibration_round(const World& world, std::size_t station);
 
 }  // namespace ols::sim

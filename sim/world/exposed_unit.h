@@ -1,4 +1,4 @@
-// The angles of a unit's shafts during an exposure, from the unit's counts. Pure.
+// Computes the angles of a unit's shafts during an exposure from the unit's counts. Pure.
 #pragma once
 
 #include <functional>
@@ -17,11 +17,12 @@ class ExposedUnit {
         exact_(truth.exact),
         offset_s_(truth.exposure_offset_s) {}
 
-  // Sets the exposure's angles. `counted`: the unit's angles at an instant of its clock, up to two
-  // seconds back. `mid_s`: mid-exposure on that clock. Exposures come in time order.
+  // Sets the angles of `exposure`. `counted`: returns the angles that the unit counts at an instant
+  // of its clock, from two seconds ago to now. `mid_s`: mid-exposure by that clock. Call in the
+  // order of the exposures.
   void expose(const std::function<PanTilt(double)>& counted, double mid_s, ExposureTruth& exposure);
 
-  // How long after the end of the exposure the unit is asked for its angles.
+  // expose() needs the unit's angles up to this long [s] after the end of the exposure.
   double longest_wait_s() const { return offset_s_ > 0.0 ? offset_s_ : 0.0; }
 
  private:

@@ -1,5 +1,5 @@
-// What the product may know of the simulated land: a model of it, coarser than the truth and with
-// errors, without trees and without houses that nobody has mapped. Pure.
+// The model of the simulated land that the product may use. It is coarser than the truth and has
+// errors. It has no trees, and only houses that are mapped. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace ols::sim {
 
 struct LandModel {
-  land::HeightGrid grid;  // its heights are those below
+  land::HeightGrid grid;  // of heights_m
   std::shared_ptr<const std::vector<float>> heights_m;
   std::vector<land::Covering> houses;
 
@@ -21,7 +21,7 @@ struct LandModel {
   }
 };
 
-// The errors are drawn from the seed.
+// Makes the model of a scenario's land. The seed determines its errors.
 LandModel survey(const ReliefScenario& scenario, const LocalFrame& site, std::uint64_t seed);
 
 }  // namespace ols::sim

@@ -1,5 +1,5 @@
 // Landmarks in the simulated landscape: round white signs with a dark rim, visible against sky and
-// wood. Drawn with analytic edges: the centre is exact to a fraction of a pixel.
+// wood. Their edges are drawn analytically: the centre is exact to a small fraction of a pixel.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ struct Mark {
 
 config::Section mark_section(std::vector<Mark>& marks);
 
-// A disc of this radius and its rim, which is half as wide.
+// Draws a disc of this radius and its rim, which is half as wide as the radius.
 void draw_mark(const Eigen::Vector2d& centre_px, double radius_px, cv::Mat& gray);
 
 }  // namespace ols::sim

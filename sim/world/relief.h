@@ -1,8 +1,9 @@
-// The land around a simulated site as it truly is: hills, the roughness of the ground, houses and
-// trees. Its own; the product knows at most a model of it (land_model.h). Pure.
+// The true land around a simulated site: hills, the roughness of the ground, houses and trees.
+// Written without the product's code; the product has at most a model of this land (land_model.h).
+// Pure.
 //
-// Places are metres east and north in the site's frame. Heights are above the site's origin, along
-// the ellipsoid: level ground has height 0 everywhere.
+// Places are metres east and north in the site's frame. Heights are ellipsoidal, minus that of the
+// site's origin: level ground has height 0 everywhere.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,37 +15,37 @@ namespace ols::sim {
 struct Hill {  // a Gaussian
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
   double height_m = 30.0;
-  Eigen::Vector2d width_m{60.0, 60.0};  // 1-sigma along its heading and across
+  Eigen::Vector2d width_m{60.0, 60.0};  // 1-sigma along the heading and across it
   double heading_rad = 0.0;
 };
 
-struct House {  // with a level roof, above the lowest ground at its corners
+struct House {  // with a level roof; heights are from the lowest ground at its corners
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
-  Eigen::Vector3d size_m{12.0, 8.0, 6.0};  // along its heading, across, high
+  Eigen::Vector3d size_m{12.0, 8.0, 6.0};  // along the heading, across it, height
   double heading_rad = 0.0;
-  bool mapped = true;  // the model has it
+  bool mapped = true;  // whether the product's model has it
 
-  Eigen::Vector2d corner_m(int index) const;  // 0 to 3, around
+  Eigen::Vector2d corner_m(int index) const;  // `index`: 0 to 3, in order around the house
   bool covers(const Eigen::Vector2d& place_m) const;
 };
 
-struct Tree {  // a cylinder; no model has it
+struct Tree {  // a cylinder; the product's model has no trees
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
   double height_m = 8.0, radius_m = 2.0;
 };
 
-// What a survey made of it.
+// The resolution and the errors of the product's model of the land.
 struct LandModelScenario {
-  double reach_m = 1500.0;    // of the grid, each way
-  double spacing_m = 10.0;    // of its heights
-  double sd_m = 1.0;          // of its heights, 1-sigma;
-  double length_m = 80.0;     // errors are alike over about this distance
+  double reach_m = 1500.0;    // of the grid, in each direction from the origin
+  double spacing_m = 10.0;    // of the grid's heights
+  double sd_m = 1.0;          // 1-sigma of the heights' errors;
+  double length_m = 80.0;     // the errors are correlated over about this distance
   double house_sd_m = 0.5;    // of the houses' heights
-  double outline_sd_m = 1.0;  // of the houses' places, each axis
+  double outline_sd_m = 1.0;  // of the houses' positions, each axis
 };
 
 struct ReliefScenario {
-  double roughness_m = 0.2, roughness_length_m = 15.0;  // 1-sigma; wavelength
+  double roughness_m = 0.2, roughness_length_m = 15.0;  // 1-sigma, and wavelength
   std::vector<Hill> hills;
   std::vector<House> houses;
   std::vector<Tree> trees;
@@ -53,7 +54,7 @@ struct ReliefScenario {
   bool is_flat() const { return hills.empty() && houses.empty() && trees.empty(); }
 };
 
-// A random field with this 1-sigma, whose waves are about this long.
+// A random field with this 1-sigma; its wavelengths are about `length_m`.
 class Waves {
  public:
   Waves(double sd_m, double length_m, std::uint64_t seed);
@@ -66,8 +67,8 @@ class Waves {
   Eigen::Matrix<double, kWaves, 1> phase_rad_;
 };
 
-// A random field with this 1-sigma, whose correlation over a distance is exp(-distance / length_m):
-// the errors of an elevation model. It has waves of all lengths.
+// A random field with this 1-sigma: the errors of an elevation model. Its correlation over a
+// distance is exp(-distance / length_m); it has waves of all lengths.
 class ErrorField {
  public:
   ErrorField(double sd_m, double length_m, std::uint64_t seed);
@@ -86,11 +87,12 @@ class Relief {
 
   double ground_m(const Eigen::Vector2d& place_m) const;
   double top_m(const Eigen::Vector2d& place_m) const;
-  // The greatest tangent of the elevation of the land, seen from a camera (east, north, up in the
-  // site's frame) in the direction of `outward` (a unit vector) up to a distance, at most 10 km.
+  // The land's highest elevation, as its tangent, seen from a camera in a horizontal direction.
+  // `camera_enu`: in the site's frame. `outward`: the direction, a unit vector. `distance_m`: only
+  // land up to this distance counts, and at most up to 10 km.
   double highest_slope(const Eigen::Vector3d& camera_enu, const Eigen::Vector2d& outward,
                        double distance_m) const;
-  // Whether it stands between the two.
+  // Whether the land hides the target from the camera.
   bool hides(const Eigen::Vector3d& camera_enu, const Eigen::Vector3d& target_enu) const;
 
  private:

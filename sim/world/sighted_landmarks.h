@@ -1,5 +1,5 @@
-// The stationing of the world's stations, as by a field team: each station sights landmarks or
-// other stations, and the product's stationing finds its pose (calibration/stationing.h).
+// Stations the world's stations as a field team would: each station sights landmarks or other
+// stations, and the product's stationing (calibration/stationing.h) computes the station's pose.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace ols::sim {
 
-// Replaces `nominal` by the result. A landmark's error is the same for all stations; marks are
-// drawn for each. step_rad: of the PTUs' encoders. Throws std::invalid_argument if a station cannot
-// reach a landmark.
+// Replaces each station's `nominal` geometry by the result. The position error of a landmark is the
+// same for all stations; the errors of the operators' marks are independent. `step_rad`: of the
+// PTUs' encoders. Throws std::invalid_argument if a station cannot reach a landmark.
 void find_headings(const Scenario& scenario, std::uint64_t seed, double step_rad,
                    std::vector<StationTruth>& stations);
 

@@ -8,16 +8,17 @@
 
 namespace ols::sim {
 
-// Fractal noise, float, with zero mean and unit deviation. Wavelengths from `longest_px` down to
-// `shortest_px`; each octave has `roughness` times the amplitude of the octave before. Periodic in
-// both directions.
+// Fractal noise (float) with zero mean and a standard deviation of 1. Wavelengths from `longest_px`
+// down to `shortest_px`; each octave has `roughness` times the amplitude of the next longer one.
+// Periodic in both directions.
 cv::Mat fractal_noise(cv::Size size, double longest_px, double shortest_px, double roughness,
                       std::mt19937_64& generator);
 
-// A periodic wood of this size: tree crowns, lit from the upper left, and clearings.
+// A square, periodic texture of a wood, `size` texels wide: tree crowns, lit from the upper left,
+// and clearings.
 cv::Mat wood(int size, std::mt19937_64& generator);
 
-// Periodic tree tops along a line of `length` texels: heights in texels >= 0.
+// Heights of periodic tree tops along a line of `length` texels, in texels, >= 0.
 std::vector<float> tree_tops(int length, std::mt19937_64& generator);
 
 }  // namespace ols::sim

@@ -18,8 +18,9 @@ class Trajectory {
   virtual Motion at(double time_s) const = 0;
 };
 
-// centre + amplitude * sin(2 pi t / period + phase), per axis. A figure-eight if one horizontal
-// period is half of the other; a circle if they are equal and a quarter apart.
+// centre + amplitude * sin(2 pi t / period + phase), per axis. It is a figure-eight if one
+// horizontal period is half of the other. It is a circle if the periods and amplitudes are equal
+// and the phases are a quarter apart.
 struct Lissajous final : Trajectory {
   Eigen::Vector3d centre_enu = Eigen::Vector3d::Zero();
   Eigen::Vector3d amplitude_m = Eigen::Vector3d::Zero();
@@ -34,7 +35,8 @@ struct Line final : Trajectory {
   Motion at(double time_s) const override;
 };
 
-// Natural cubic spline through points at given times; at rest before the first and after the last.
+// Natural cubic spline through points at given times. The target is at rest before the first and
+// after the last point.
 class Spline final : public Trajectory {
  public:
   // Throws std::invalid_argument for fewer than two points, or times that do not increase.
@@ -47,7 +49,7 @@ class Spline final : public Trajectory {
   std::vector<Eigen::Vector3d> curvature_;  // second derivative at each point
 };
 
-// A spline through waypoints, with this mean speed on each leg.
+// A spline through waypoints, with this mean speed between each two of them.
 std::unique_ptr<Trajectory> through_waypoints(const std::vector<Eigen::Vector3d>& points_enu,
                                               double speed_m_s);
 

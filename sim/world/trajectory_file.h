@@ -1,4 +1,5 @@
-// A trajectory from a CSV file with the columns `utime_us,lat,lon,h` (degrees, ellipsoidal metres).
+// Reads a trajectory from a CSV file with the columns `utime_us,lat,lon,h` (degrees, ellipsoidal
+// metres).
 #pragma once
 
 #include <memory>
@@ -9,7 +10,7 @@
 
 namespace ols::sim {
 
-// Scenario time 0 is the first row. Throws ConfigError with file, line and reason.
+// The first row is at scenario time 0. Throws ConfigError with file, line and reason.
 std::unique_ptr<Trajectory> load_trajectory_file(const std::string& path, const LocalFrame& site);
 
 }  // namespace ols::sim

@@ -1,6 +1,6 @@
-// A real pan-tilt unit with camera: errors of gears, axes and lens, drawn from a seed. Some of
-// these errors are in no model of the product. Written from docs/calibration.md, without the
-// product's own model, so that a wrong sign in both does not cancel. Pure.
+// The errors of a simulated pan-tilt unit and its camera: of gears, axes and lens, drawn from a
+// seed. Some of these errors are in no model of the product. Written from docs/calibration.md,
+// without the product's own model: a wrong sign there cannot cancel here. Pure.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,19 +11,20 @@
 
 namespace ols::sim {
 
-// The size of the errors: none; the errors left after a workshop's calibration and the transport;
-// the errors of a unit that was never measured. The sizes are those of docs/calibration.md.
+// The size of the errors, as in docs/calibration.md. kNone: no errors. kWorkshop: the errors that
+// remain after calibration in a workshop and transport. kNew: the errors of a unit that was never
+// measured.
 enum class UnitErrors { kNone, kWorkshop, kNew };
 
 struct UnitErrorsScenario {
   UnitErrors size = UnitErrors::kNone;
-  // Errors that no model has.
+  // Errors that are in no model of the product.
   double wave_arcsec = 3.0;         // amplitude of the microstep waves
   double second_worm_arcsec = 2.0;  // amplitude of the worms' second harmonic
-  double jitter_arcsec = 4.5;       // of each angle, new at each count, 1-sigma
+  double jitter_arcsec = 4.5;       // 1-sigma, of each angle; independent at each count
 };
 
-// The errors of a shaft against its counts.
+// The errors of a shaft's angle, relative to its counts.
 struct ShaftTruth {
   double cos1_rad = 0.0, sin1_rad = 0.0, cos2_rad = 0.0, sin2_rad = 0.0;
   double worm_cos_rad = 0.0, worm_sin_rad = 0.0;
@@ -33,20 +34,22 @@ struct ShaftTruth {
 };
 
 struct UnitTruth {
-  bool exact = true;  // the shafts stand at the reported angles, and the tilt axis is square
+  bool exact = true;  // the shafts' angles are those reported, and the tilt axis is perpendicular
+                      // to the pan axis
   ShaftTruth pan, tilt;
   double trunnion_rad = 0.0;
-  double exposure_offset_s = 0.0;  // exposure minus counts of the same stamp
+  // The counts with an exposure's stamp are those of this much later.
+  double exposure_offset_s = 0.0;
   double jitter_rad = 0.0;
   std::uint64_t jitter_seed = 0;
 };
 
-// Adds the drawn errors of mounting and lens to `chain` and `camera`.
+// Draws a unit's errors. Adds the errors of mounting and lens to `chain` and `camera`.
 UnitTruth draw_unit(const UnitErrorsScenario& scenario, std::uint64_t seed, ChainParameters& chain,
                     CameraIntrinsics& camera);
 
-// 1-sigma of the camera's direction, across and about the optical axis, with unit errors of this
-// size. It is what a correct configuration without a calibration states.
+// 1-sigma of the camera's orientation, across and about the optical axis, with unit errors of this
+// size. A correct configuration of a station without a calibration states these values.
 struct MountSize {
   double across_rad = 0.0, roll_rad = 0.0;
 };
@@ -59,15 +62,17 @@ Eigen::Isometry3d camera_on(const ChainParameters& chain, double trunnion_rad,
 // Converts between a unit's counts and its shafts' angles.
 class UnitMechanics {
  public:
-  // `count_rad`: as the unit prints it. A turn has a whole number of counts.
+  // `count_rad`: the step size that the unit reports. The true step size divides a turn into a
+  // whole number of counts.
   UnitMechanics(const UnitTruth& truth, double count_rad);
 
-  // The unit is now at these counts. Call in time order and without gaps, because the slack depends
-  // on earlier motion.
+  // The unit is now at these counts. Call in time order and without gaps, because the shafts'
+  // positions within the slack depend on earlier motion.
   void follow(const PanTilt& counted);
   // The shafts' angles at these counts, with the present slack.
   PanTilt shafts(const PanTilt& counted) const;
-  // For a unit at rest that came from this side (1, -1: the sign of its last motion).
+  // The shafts' angles of a unit at rest. `side_pan`, `side_tilt`: 1 or -1, the sign of its last
+  // motion.
   PanTilt shafts_from(const PanTilt& counted, int side_pan, int side_tilt) const;
 
  private:
@@ -78,7 +83,7 @@ class UnitMechanics {
   double count_rad_;
   double counts_per_turn_;
   bool followed_ = false;
-  // How far each shaft is behind its motor, within half of the slack to either side.
+  // How far each shaft is behind its motor; at most half of the slack to either side.
   PanTilt behind_;
   PanTilt newest_;
 };

@@ -1,5 +1,5 @@
-// The world of one run: the scenario with its errors drawn. Pure; the same seed gives the same
-// world.
+// The world of one run: the scenario, and its errors drawn from a seed. Pure; the same seed gives
+// the same world.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,12 +17,12 @@ namespace ols::sim {
 
 struct StationTruth {
   std::string id;
-  // The geometry in the station's configuration, with its sigmas. After a stationing: the
-  // stationing's result.
+  // The geometry in the station's configuration, with its sigmas. If the station has been
+  // stationed, it is the result of that.
   StationGeometry nominal;
-  StationGeometry truth;  // without what `unit` adds
+  StationGeometry truth;  // without the errors of `unit`
   UnitTruth unit;
-  // For a zoom lens: the truth and its calibration.
+  // Of a zoom lens: the truth and its calibration.
   std::optional<ZoomTruth> zoom;
   std::vector<ZoomPoint> zoom_points;
   double clock_offset_s = 0.0;  // the station's UTC minus true UTC
@@ -43,10 +43,10 @@ class World {
   std::uint64_t seed() const { return seed_; }
   const std::vector<StationTruth>& stations() const { return stations_; }
   const LocalFrame& site() const { return site_; }
-  // Null where the land is flat and hides nothing.
+  // Null if the land is flat and hides nothing.
   const Relief* relief() const { return relief_ ? &*relief_ : nullptr; }
   Eigen::Vector3d camera_enu(std::size_t station) const { return cameras_enu_.at(station); }
-  // Whether the land hides a place from a station.
+  // Whether the land hides a place from a station's camera.
   bool hides(std::size_t station, const Eigen::Vector3d& p_ecef) const;
 
   // time_s: true time since the scenario's start.
