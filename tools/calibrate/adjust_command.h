@@ -1,4 +1,4 @@
-// The adjustment of files, for `ols-calibrate adjust` and the procedures.
+// Reads files, adjusts and writes the results, for `ols-calibrate adjust` and the procedures.
 #pragma once
 
 #include <filesystem>
@@ -19,21 +19,23 @@ struct Adjusted {
   Case what;
   Calibration found;
   std::vector<StationResult> results;
-  Acceptance acceptance;                                      // of the first station
-  std::vector<std::pair<std::string, GroupTest>> references;  // those that a person pointed at
-  std::vector<RectifiedAngle> angles;                         // of the first station
-  std::vector<std::string> notes;                             // remarks and warnings, as sentences
+  Acceptance acceptance;  // of the first station
+  // The references at which a person pointed.
+  std::vector<std::pair<std::string, GroupTest>> references;
+  std::vector<RectifiedAngle> angles;  // of the first station
+  std::vector<std::string> notes;      // remarks and warnings, as sentences
 };
 
-// Reads, adjusts and writes the folder. Passes on the errors of its parts, which name file, line
-// and key. `tell`: as for calibrate().
+// Reads the files, adjusts, and writes the results into `folder`. Throws what its parts throw;
+// their errors name file, line and key. `tell`: as for calibrate().
 Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder,
                      const TellAdjusted& tell = {});
 
-// Everything outside of the limits, for all stations, as sentences; empty: all is within them.
+// What is outside of the limits, for all stations, as sentences; empty: nothing.
 std::vector<std::string> bad_findings(const Adjusted& adjusted);
 
-// One screen for a person: the remaining errors, the rejected references, and the worst one.
+// One screen of text for a person: the remaining errors, the rejected references, and the reference
+// with the largest deviation.
 AdjustedResult result_for_person(const Adjusted& adjusted);
 
 }  // namespace ols::calibration

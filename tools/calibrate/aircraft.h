@@ -16,23 +16,23 @@ struct AircraftOptions {
   std::vector<std::string> inputs;  // files, or HOST:PORT
   std::string format, output;
   double sd_m = 10.0;
-  double duration_s = 600.0;                   // how long to read from a connection
+  double duration_s = 600.0;                   // for how long a connection is read
   std::optional<std::int64_t> start_utime_us;  // of the first frame in a Beast file
-  bool heights_are_geometric = false;          // SBS does not say which heights it gives
-  bool clock_is_right = false;                 // a person's statement, if no time service confirms
-                                               // it
+  bool heights_are_geometric = false;  // an SBS receiver does not say which heights it sends
+  // A person states that this host's clock is right, if no time service confirms it.
+  bool clock_is_right = false;
 };
 
-// The error of the clock of a receiver that stamps its messages, in words; empty: no error was
-// found. `least_delay_us`: from ReceiverDelay.
+// The clock error of a receiver that stamps its messages, in words; empty: no error was found.
+// `least_delay_us`: from ReceiverDelay.
 std::string receiver_clock_trouble(std::int64_t least_delay_us);
 
 // The rows, sorted by aircraft and time. An aircraft that was silent for half a minute gets a new
-// name. One with only one position is left out.
+// name. An aircraft with only one position is left out.
 std::string reference_rows(std::vector<AircraftPosition> positions, double sd_m);
 
-// Reads the inputs and writes the output. Throws std::runtime_error naming input or option.
-// `tell`: progress in bytes of all inputs, also while a receiver is silent.
+// Reads the inputs and writes the output. Throws std::runtime_error naming input or option. `tell`:
+// receives the progress in bytes of all inputs, also while a receiver is silent.
 CommandReport write_aircraft(const AircraftOptions& options, const TellSteps& tell = {});
 
 }  // namespace ols::calibration

@@ -12,27 +12,29 @@
 
 namespace ols::calibration {
 
-// Beast, port 30005: Mode S frames with a 12 MHz counter, from a stream in any pieces.
+// Beast, port 30005: reads Mode S frames with the count of a 12 MHz clock, from a stream that
+// arrives in any pieces.
 class BeastFrames {
  public:
   struct Frame {
     std::uint64_t ticks = 0;  // count of the 12 MHz clock
     std::vector<std::uint8_t> message;
   };
-  // Takes bytes, and returns the long frames that they complete.
+  // Takes bytes. Returns the long frames that are now complete.
   std::vector<Frame> take(std::span<const std::uint8_t> bytes);
 
  private:
-  std::vector<std::uint8_t> frame_;  // bytes after the escape that begins a frame, with escapes
-                                     // removed
+  // Bytes since the escape that begins the frame, without escapes.
+  std::vector<std::uint8_t> frame_;
   bool is_inside_ = false, is_escaped_ = false;
 };
 
 // Converts a receiver's counter to this host's time. The counter has no time of day, and each frame
-// arrives with a delay. The time of the first frame follows from the frame with the least delay.
+// arrives with another delay. The frame with the least delay determines the time of the first
+// frame.
 class TickClock {
  public:
-  // [us] Time from the first frame to this one, which arrived at `arrival_utime_us`.
+  // The time [us] from the first frame to this frame, which arrived at `arrival_utime_us`.
   std::int64_t take(std::uint64_t ticks, std::int64_t arrival_utime_us);
   // The time of the first frame, from all frames so far.
   std::int64_t first_utime_us() const { return first_utime_us_; }
@@ -42,21 +44,22 @@ class TickClock {
   std::int64_t first_utime_us_ = 0;
 };
 
-// The delay of messages, by the receiver's own stamps. No message arrives before it was sent, and
-// of many messages one is hardly delayed. So the least delay is the offset between the clocks.
+// The delay of messages, measured by the receiver's own stamps. No message arrives before it was
+// sent, and at least one of many messages has almost no delay. Therefore, the least delay is the
+// offset between the clocks of this host and of the receiver.
 class ReceiverDelay {
  public:
   void note(std::int64_t stamp_utime_us, std::int64_t arrival_utime_us);
-  // [us] Least delay so far; nullopt: no message was stamped.
+  // The least delay [us] so far; nullopt: no message had a stamp.
   std::optional<std::int64_t> least_us() const { return least_us_; }
 
  private:
   std::optional<std::int64_t> least_us_;
 };
 
-// Reads a line of SBS, port 30003; nullopt if it has no position. Its height is barometric, and
-// usable only if the receiver is configured to write geometric heights. Its times have no time zone
-// and are taken as UTC.
+// Reads a line of SBS, port 30003; nullopt if it has no position. Heights are normally barometric;
+// they are usable only if the receiver is configured to write geometric heights. Times have no time
+// zone; they are taken as UTC.
 std::optional<AircraftPosition> sbs_position(const std::string& line);
 
 struct AircraftSnapshot {
@@ -64,8 +67,8 @@ struct AircraftSnapshot {
   std::vector<AircraftPosition> positions;
   int barometric_only = 0;
 };
-// aircraft.json of readsb and dump1090: `now` minus `seen_pos`, and `alt_geom`. Throws
-// std::runtime_error for any other text.
+// Reads aircraft.json of readsb or dump1090. The time of a position is `now` minus `seen_pos`, its
+// height is `alt_geom`. Throws std::runtime_error for any other text.
 AircraftSnapshot aircraft_json(const std::string& text);
 
 }  // namespace ols::calibration

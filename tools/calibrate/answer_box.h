@@ -1,5 +1,5 @@
-// Answers to a procedure's questions that arrive over the bus. It takes the first answer to the
-// current question, and an abort at any time. Pure.
+// Receives the answers to a procedure's questions from the bus. It takes the first answer to the
+// current question; it takes an abort at any time. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace ols::calibration {
 
 class AnswerBox {
  public:
-  // From now on only answers to this question are taken; 0: to no question.
+  // From now on, takes only answers to this question; 0: takes no answers.
   void ask(std::int64_t question);
-  // Ignores an answer that is old or repeated, is not to the current question, or is out of range.
-  // `now_utime_us`: this host's UTC.
+  // Takes an answer from the bus. Ignores it if it is old, repeated, not to the current question,
+  // or out of range. `now_utime_us`: this host's UTC.
   void hear(const ols_msg::procedure_answer_t& answer, std::int64_t now_utime_us);
   // True once for each abort.
   bool take_abort() { return std::exchange(is_aborted_, false); }
@@ -28,7 +28,8 @@ class AnswerBox {
   std::int64_t question_ = 0;
   std::optional<Answer> answer_;
   bool is_aborted_ = false;
-  // sender's boot and number, only of answers that were taken, so that a flood cannot make it grow
+  // boot id and number of each taken answer; other answers are not stored, so that a flood of them
+  // cannot fill the memory
   std::set<std::pair<std::int64_t, std::int64_t>> heard_;
 };
 

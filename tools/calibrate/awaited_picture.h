@@ -1,6 +1,6 @@
-// A picture that is expected from the place where the unit was sent: how near the unit is, which
-// parts have arrived, and what is missing, in words. Uses no clock or bus: times are given [s,
-// monotonic].
+// A picture that is awaited from the angles to which the unit was sent: how near the unit is to
+// them, which parts of the picture have arrived, and what is missing. Uses no clock and no bus: the
+// caller gives the times [s, monotonic].
 #pragma once
 
 #include <algorithm>
@@ -22,23 +22,23 @@ class AwaitedPicture {
       : boot_id_(boot_id), at_(at), progress_s_(now_s), part_s_(now_s) {}
 
   const PanTilt& at() const { return at_; }
-  // The picture was requested. After a second request, a frame that the first one has caused is
-  // still accepted.
+  // The picture was requested with this sequence number. After a second request, an answer to the
+  // first one is still accepted.
   void asked(std::int64_t sequence) { first_request_ = std::min(first_request_, sequence); }
   void hear_angles(const PanTilt& angles, double now_s);
-  // Returns the file if this part completes it. Parts of other requests are dropped. Parts of a
-  // newer frame replace those of an older one.
+  // Takes a part; returns the picture's file if it is now complete. Ignores parts that answer other
+  // requests. Parts of a newer frame replace those of an older one.
   std::optional<std::vector<std::uint8_t>> hear_part(const ols_msg::frame_part_t& part,
                                                      double now_s);
 
   double part_heard_s() const { return part_s_; }
-  // When the unit last came nearer, or the received part of a picture last grew.
+  // When the unit last came nearer, or another part of the picture last arrived.
   double progress_s() const { return progress_s_; }
   std::string missing() const;
 
  private:
-  static constexpr double kThere_rad = 2e-3;  // a quarter of the distance over which an approach
-                                              // runs
+  // The unit has arrived; a quarter of the length of an approach.
+  static constexpr double kThere_rad = 2e-3;
 
   std::int64_t boot_id_;  // of the requester
   PanTilt at_;

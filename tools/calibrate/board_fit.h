@@ -1,6 +1,6 @@
 // Fits a camera in one of the lens models (geometry/lens.h) to pictures of a flat board, with its
-// full covariance. Only for cameras that focus near: a long lens focused at infinity sees only a
-// blur.
+// full covariance. Only for cameras that can focus at the board: for a long lens focused at
+// infinity, it is only a blur.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,13 +12,14 @@
 
 namespace ols::calibration {
 
-// The corners in one picture, and as many positions on the board [m].
+// The corners in one picture, and the position [m] of each of them on the board.
 struct BoardView {
   std::vector<cv::Point3f> board;
   std::vector<cv::Point2f> pixels;
 };
 
-// The order in every vector and covariance. Parameters that a model lacks are exactly zero.
+// The order of the parameters in every vector and covariance. Parameters that a lens model does not
+// have are exactly zero.
 inline constexpr std::array<const char*, 10> kCameraParameters{
     "focal_px", "aspect", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "k4"};
 inline constexpr int kCameraSize = static_cast<int>(kCameraParameters.size());
@@ -28,7 +29,7 @@ struct BoardCamera {
   using Matrix = Eigen::Matrix<double, kCameraSize, kCameraSize>;
   Vector values = Vector::Zero();
   Matrix covariance = Matrix::Zero();  // scaled by the residuals
-  double rms_px = 0.0;                 // of a corner's distance, as OpenCV defines it
+  double rms_px = 0.0;                 // RMS distance of a corner, as OpenCV defines it
   std::vector<double> view_rms_px;
 };
 

@@ -1,4 +1,4 @@
-// The input files of an adjustment by ols-calibrate, read and checked.
+// Reads and checks the input files of an adjustment by ols-calibrate.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,14 @@ namespace ols::calibration {
 
 struct CaseOptions {
   std::vector<std::string> stations;     // configurations, as ols-station reads them
-  std::vector<std::string> instruments;  // none, or one per station
+  std::vector<std::string> instruments;  // no files, or one per station
   std::vector<std::string> observations;
   std::string references, predict, output;
   Ut1Value ut1;
-  std::optional<double> resolution_arcsec;  // of a count, as the units print it
+  std::optional<double> resolution_arcsec;  // size of a count, as the units report it
   std::optional<double> pressure_hPa, temperature_degC;
-  std::optional<double> clock_sd_s;  // of the clock that stamped the sightings of the sky
+  // 1-sigma of the clock that stamped the sightings of stars and sun.
+  std::optional<double> clock_sd_s;
 };
 
 struct Case {
@@ -29,33 +30,36 @@ struct Case {
   std::vector<Instrument> instruments;  // before the adjustment
   Problem problem;
   std::vector<std::string> warnings;
-  std::vector<std::string> files;  // of the observations, by index
-  std::set<std::size_t> mistaken;  // indices of the observations that are left out
+  std::vector<std::string> files;  // the file of each observation
+  std::set<std::size_t> mistaken;  // indices of the observations that are not used
 };
 
 // The instrument with which a new setup begins. Values of an earlier calibration (with a covariance
-// in the file) get a larger uncertainty, because the unit was carried: 30 arc seconds for the
-// camera on its plate, 4 for the axes. Values that a person states do not change.
+// in the file) get a larger uncertainty, because transport may change them: 30 arc seconds for the
+// camera on its plate, 4 arc seconds for the axes. Values that a person states keep their
+// uncertainty.
 Instrument carried_instrument(const std::string& path, const Instrument& fallback);
 
-// The station before an adjustment. Throws std::invalid_argument if its position is not surveyed.
+// The station's state before an adjustment. Throws std::invalid_argument if the station's position
+// is not surveyed.
 StationPrior prior_of(const station::StationSettings& settings, const Instrument& instrument,
                       const std::string& path);
-// Landmarks, stars and trajectories of a file; an empty path has none. Throws CsvError.
+// Reads landmarks, stars and trajectories from a file; with an empty path there are none. Throws
+// CsvError.
 References references_in(const std::string& path);
 
-// The stations before the adjustment, without observations.
+// Reads the stations, without observations.
 Case read_stations(const CaseOptions& options);
-// Throws ConfigError, CsvError or std::runtime_error naming file, line and key;
+// Reads everything. Throws ConfigError, CsvError or std::runtime_error naming file, line and key;
 // std::invalid_argument.
 Case read_case(const CaseOptions& options);
 
-// The network of the case, without the mistaken observations. An error names the refused
-// observation's file and line.
+// The network of the case, without the mistaken observations. Errors name the file and line of the
+// refused observation.
 Network network_of(const Case& what);
 
-// Finds single sightings of drones, aircraft and tracks that contradict all others. `tell`: as for
-// calibrate().
+// Finds single sightings of drones, aircraft and tracks that contradict all other observations.
+// `tell`: as for calibrate().
 void find_mistaken(Case& what, const TellAdjusted& tell = {});
 // One sentence for each of the first few mistaken observations, with file and line.
 std::vector<std::string> mistaken_in_words(const Case& what);

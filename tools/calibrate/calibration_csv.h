@@ -11,10 +11,10 @@
 
 namespace ols {
 
-// ICRS, epoch 2000.0.
+// A star's place in ICRS at epoch 2000.0, and its motion.
 struct StarCells {
   double ra_deg = 0.0, dec_deg = 0.0;
-  double pm_ra_mas_yr = 0.0;  // times the cosine of the declination
+  double pm_ra_mas_yr = 0.0;  // already multiplied by the cosine of the declination
   double pm_dec_mas_yr = 0.0;
   double parallax_mas = 0.0;
 };
@@ -39,9 +39,9 @@ struct PredictRow {
   unsigned line = 0;
 };
 
-// At least one row. Only rows with a time may repeat a name; their times ascend.
+// Reads at least one row. Only rows with a time may repeat a name; their times must ascend.
 std::vector<ReferenceRow> read_references(const std::string& path);
-// At least one row.
+// Reads at least one row.
 std::vector<PredictRow> read_predictions(const std::string& path);
 
 }  // namespace ols

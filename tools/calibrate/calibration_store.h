@@ -1,6 +1,6 @@
-// A station's calibrations on disk. Each has a folder named by its id. The link `current` points to
-// the one in use. history.jsonl records the events. Nothing is overwritten; a return to an earlier
-// calibration is one rename.
+// A station's calibrations on disk. Each calibration has a folder named by its id. The link
+// `current` points to the calibration in use. history.jsonl records the events. No calibration is
+// ever overwritten; a single rename of the link returns to an earlier one.
 //
 //   FOLDER/current -> 4711            switched by one rename
 //   FOLDER/instrument -> 4712         an instrument without a setup, accepted later; without it,
@@ -23,7 +23,7 @@ namespace ols::calibration {
 struct HistoryLine {
   std::int64_t utime_us = 0;
   std::string event;      // "accepted", "instrument", "kept", "reverted"
-  std::string id;         // of the calibration
+  std::string id;         // the calibration's id
   std::string procedure;  // the procedure that made it
   std::string previous;   // the calibration that was in use before; empty: none
 };
@@ -37,12 +37,12 @@ class CalibrationStore {
   CalibrationStore& operator=(const CalibrationStore&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
-  // Allows one procedure at a time. Throws std::runtime_error if another one is running. Renames
-  // the folders of procedures that have died, and returns the new names. Completes a decision that
-  // a loss of power has interrupted.
+  // Allows only one procedure at a time. Throws std::runtime_error if another one is running.
+  // Renames the folders of procedures that have died as interrupted, and returns their new names.
+  // If a loss of power has interrupted a decision, completes it.
   std::vector<std::filesystem::path> lock();
 
-  // A new folder for a running procedure.
+  // Creates the folder of a running procedure.
   std::filesystem::path begin(const std::string& procedure, std::int64_t utime_us);
   // Renames the folder, with all its data, as interrupted; returns its new name.
   std::filesystem::path interrupt(const std::filesystem::path& running);
@@ -50,22 +50,23 @@ class CalibrationStore {
   std::vector<std::filesystem::path> interrupted() const;
   // Makes one of them a running procedure again; returns its new name.
   std::filesystem::path resume(const std::filesystem::path& interrupted);
-  // Gives the folder its id, once everything is on disk. Throws std::runtime_error if the id
-  // exists.
+  // Renames the folder to its calibration's id, after everything is on disk. Throws
+  // std::runtime_error if the id exists.
   std::filesystem::path keep(const std::filesystem::path& running, const std::string& id);
 
   std::optional<std::string> current() const;
   bool has(const std::string& id) const;
   // Puts the calibration of this id into use. Throws std::runtime_error if there is none.
   void use(const std::string& id, HistoryLine line);
-  // New setups begin with the instrument of this calibration. The calibration in use stays in use.
+  // From now on, new setups begin with the instrument of this calibration. The calibration in use
+  // does not change.
   void use_instrument(const std::string& id, HistoryLine line);
-  // The file of the instrument accepted last; nullopt: none.
+  // The file of the instrument that was accepted last; nullopt: there is none.
   std::optional<std::filesystem::path> instrument_file() const;
   void note(const HistoryLine& line);
-  // Oldest first, without damaged lines.
+  // The lines of the history, oldest first; damaged lines are left out.
   std::vector<HistoryLine> history() const;
-  // The calibration in use before the current one was accepted.
+  // The calibration that was in use before the current one was accepted.
   std::optional<std::string> previous() const;
 
  private:

@@ -16,8 +16,9 @@ struct CameraOptions {
   std::string output;
 };
 
-// Writes the folder. Some pictures always miss the board; if most do, the description of the board
-// is probably wrong. Throws std::runtime_error or std::invalid_argument naming picture or option.
+// Fits the camera and writes the folder. In some pictures the board is usually not found; if it is
+// missing in most, the report says that its description is probably wrong. Throws
+// std::runtime_error or std::invalid_argument naming picture or option.
 CommandReport write_camera(const CameraOptions& options);
 
 }  // namespace ols::calibration

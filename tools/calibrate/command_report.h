@@ -1,4 +1,4 @@
-// What a subcommand reports about its result, and the exit status that follows from it.
+// A subcommand's report about its result, and the exit status that follows.
 #pragma once
 
 #include <string>
@@ -6,18 +6,19 @@
 
 namespace ols::calibration {
 
-// Exit status of every subcommand if some input is missing in the result, or the result is not
-// within its limits or was not accepted. 0: none of these. kExitBadInput: there is no result.
+// The exit status of a subcommand whose result lacks some of the input, is outside of its limits or
+// was not accepted. Otherwise the status is 0, or kExitBadInput if there is no result.
 inline constexpr int kExitLookAtIt = 1;
 
 // Sentences.
 struct CommandReport {
   std::vector<std::string> summary;  // about the result
-  std::vector<std::string> notes;    // usual remarks; nobody need do anything about them
-  std::vector<std::string> faults;   // each of them makes the status kExitLookAtIt
+  std::vector<std::string> notes;    // remarks that need no action
+  std::vector<std::string> faults;   // any fault makes the status kExitLookAtIt
 };
 
-// Writes the summary to standard output, the rest to standard error. Returns the exit status.
+// Writes the summary to standard output, notes and faults to standard error. Returns the exit
+// status.
 int tell(const CommandReport& report);
 
 }  // namespace ols::calibration

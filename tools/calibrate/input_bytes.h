@@ -1,4 +1,4 @@
-// The size of inputs, for the progress of reading them.
+// The size of input files, for showing the progress of reading.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,8 @@
 
 namespace ols::calibration {
 
-// Total size; 0 if the size of any is unknown: a pipe, a receiver's address, a missing file.
+// The total size. It is 0 if the size of any input is unknown: of a pipe, a receiver's address, or
+// a missing file.
 std::size_t input_bytes(const std::vector<std::string>& paths);
 
 }  // namespace ols::calibration

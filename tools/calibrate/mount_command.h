@@ -1,4 +1,5 @@
-// ols-calibrate mount: what the position reports of an ONVIF camera are worth, without a person.
+// ols-calibrate mount: measures the errors of the positions that an ONVIF camera reports, without a
+// person's help.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
-// Turns a station's mount over still scenery, and compares its reported positions, at rest and in
-// motion, with the pictures.
+// Turns a station's mount while the camera sees still scenery, and compares the positions that the
+// mount reports, at rest and in motion, with the pictures.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,8 @@ namespace ols::calibration {
 
 struct AxisResult {
   std::optional<MountFit> fit;  // nullopt: too few pictures
-  // `found`: pictures whose scenery was recognised. Both 0: the travel is too short.
+  // Number of pictures, and of those whose scenery was recognised (`found`). Both are 0 if the axis
+  // cannot move far enough.
   std::size_t pictures = 0, found = 0;
 };
 struct MountResult {
@@ -26,19 +27,19 @@ struct MountResult {
 
 class MountRun {
  public:
-  // `bus` must outlive it. Throws std::runtime_error if the station does not answer or may not
-  // turn.
+  // `bus` must outlive this object. Throws std::runtime_error if the station does not answer or may
+  // not turn.
   MountRun(const StationFiles& station, LcmBus& bus);
 
-  // Measures around the unit's present position. Releases the unit at the end, whatever happens.
+  // Measures around the unit's present position. Releases the unit at the end, even after an error.
   // Throws StationStopped or std::runtime_error.
   MountResult measure();
 
  private:
   struct Axis {
     double PanTilt::*of;
-    double view_rad;  // the picture's size along it
-    int steps;        // to each side
+    double view_rad;  // the field of view along the axis
+    int steps;        // number of steps to each side
     double least_rad, most_rad;
   };
 

@@ -1,4 +1,4 @@
-// Observations in a file that any program can write: one JSON object per line.
+// Reads observations from a file that any program can write: one JSON object per line.
 #pragma once
 
 #include <istream>
@@ -9,8 +9,9 @@
 
 namespace ols::calibration {
 
-// `station` in a line is one of `stations`; it may be missing if there is only one. Throws
-// std::runtime_error "FILE:LINE: key: what" for the first bad line, and for a file without lines.
+// The key `station` of a line names one of `stations`; it may be missing if there is only one.
+// Throws std::runtime_error "FILE:LINE: key: what" for the first bad line, and for a file without
+// lines.
 std::vector<Observation> read_observations(const std::string& path,
                                            const std::vector<std::string>& stations);
 // The same from a stream; errors name `path`.

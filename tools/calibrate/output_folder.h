@@ -1,4 +1,4 @@
-// The folder of a calibration. It appears whole or not at all, and overwrites nothing.
+// Writes the folder of a calibration: all of it or nothing, and never over existing files.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 namespace ols::calibration {
 
 struct OutputFile {
-  std::string name;  // in the output's folder; a network has a folder for each station
+  std::string name;  // path in the output folder; a network has a subfolder for each station
   std::string text;
 };
 
-// Delays SIGINT, SIGTERM and SIGHUP while it lives, in every thread. The results are a few
-// kilobytes, and a signal waits until they are written.
+// While this object lives, SIGINT, SIGTERM and SIGHUP wait, in every thread. It protects the
+// writing of the results, which are only a few kilobytes.
 class SignalsWait {
  public:
   static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
@@ -29,12 +29,12 @@ class SignalsWait {
   std::array<struct sigaction, kSignals.size()> before_{};
 };
 
-// The folder of this name, without links and without a slash at the end. Throws
-// std::invalid_argument naming --output unless it is new or empty, and no interrupted run has left
-// data.
+// The path of the output folder, without links and without a slash at the end. Throws
+// std::invalid_argument naming --output if the folder is not empty, or if an interrupted run has
+// left data there.
 std::filesystem::path checked_folder(const std::string& output);
 
-// All files or none: the folder gets its name when all are written.
+// Writes all files or none: the folder gets its name when all files are written.
 void write_folder(const std::filesystem::path& folder, const std::vector<OutputFile>& files);
 
 }  // namespace ols::calibration

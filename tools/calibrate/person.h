@@ -1,4 +1,5 @@
-// The person at the terminal, or a script instead: shows the procedure's steps and reads answers.
+// The person at the terminal, or a script in that person's place: shows the procedure's steps and
+// reads the answers.
 #pragma once
 
 #include <deque>
@@ -11,7 +12,7 @@ namespace ols::calibration {
 
 // Reads an answer from a line: "confirm", "point 640.2 481", "exactly 640.2 481", "turn 2.5 -1"
 // (degrees of pan and tilt), "skip", "accept", "redo", "keep", "abort", "again", "filter_on",
-// "filter_off", "sight", "done". Throws std::invalid_argument for any other.
+// "filter_off", "sight", "done". Throws std::invalid_argument for any other line.
 Answer answer_of(const std::string& line);
 
 class Person {
@@ -21,15 +22,15 @@ class Person {
   explicit Person(const std::string& script);
 
   void tell(const std::string& line);
-  // A line that replaces the previous progress line.
+  // Shows a line that replaces the previous progress line.
   void progress(const std::string& line);
-  // Shows a question. What was typed before it is discarded, except "abort".
+  // Shows a question. Discards everything typed earlier, except "abort".
   void ask(const Question& question);
-  // For another picture of the same question: shows only the last line of the text, with the
-  // measured value, again. Earlier input still counts as an answer.
+  // Shows the same question for another picture: only the last line of its text, which has the
+  // measured value. Input that was typed earlier still counts as an answer.
   void ask_again(const Question& question);
-  // The answer to the question; nullopt: there is none yet. An invalid line is reported, and the
-  // question stays.
+  // The answer to the question; nullopt: there is none yet. Reports an invalid line, and waits for
+  // another one.
   std::optional<Answer> answer();
   // Whether nobody can answer: the script has ended, and there is no terminal.
   bool is_silent() const { return scripted_ && script_.empty(); }

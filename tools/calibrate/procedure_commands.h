@@ -1,4 +1,5 @@
-// ols-calibrate field, workshop, rectify, sweep, check, history, revert: options and wiring.
+// ols-calibrate field, workshop, rectify, sweep, check, history, revert: their options, and how the
+// parts of each are put together.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,14 +25,14 @@ struct ProcedureOptions {
   std::optional<double> pressure_hPa, temperature_degC;
 };
 
-// --ut1-utc and --ut1-date, which `adjust` has too.
+// Adds --ut1-utc and --ut1-date, which `adjust` has too.
 void add_ut1(CLI::App& app, Ut1Value& ut1);
 
 // Adds the subcommands. After parsing, `options` has the name of the chosen one.
 void add_procedures(CLI::App& app, ProcedureOptions& options);
 
-// The exit status: 0: accepted or done; 1: the old calibration was kept, or the procedure aborted.
-// Throws for bad input.
+// Returns the exit status. 0: accepted or done; 1: the old calibration stays in use, or the
+// procedure was aborted. Throws for bad input.
 int run_procedure(const ProcedureOptions& options);
 
 }  // namespace ols::calibration

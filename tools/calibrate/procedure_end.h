@@ -1,4 +1,4 @@
-// The end of a procedure: what is kept, which calibration is in use, and the messages to the
+// Ends a procedure: decides which data are kept and which calibration is in use, and informs the
 // person.
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace ols::calibration {
 
-// Ends a procedure after an outcome. Returns the exit status.
+// Ends a procedure with this outcome. Returns the exit status.
 int finish(const Procedure& procedure, Outcome outcome, const StationFiles& station,
            StationLink& link, CalibrationStore& store, Person& person);
 // Ends a procedure after an error: the old calibration stays in use, and the observations are kept.
-// After a late failure they may already have their final name.
+// If the error came late, their folder may already have its final name.
 [[noreturn]] void fail(const std::exception& error, const ProcedureSession& session,
                        CalibrationStore& store);
 

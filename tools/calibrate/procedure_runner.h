@@ -1,5 +1,5 @@
 // Carries out a procedure's orders: drives the unit, takes pictures, asks the person at the
-// terminal or at a console, and has the result computed.
+// terminal or at a console, and computes the result.
 #pragma once
 
 #include <functional>
@@ -16,23 +16,24 @@ namespace ols::calibration {
 class ProcedureRunner {
  public:
   using Adjust = std::function<AdjustedResult()>;
-  // `session`: null if nothing is stored.
+  // `session`: where results are stored; null: nowhere.
   ProcedureRunner(std::string name, StationLink& station, Person& person, ProcedureSession* session)
       : name_(std::move(name)), station_(station), person_(person), session_(session) {}
 
-  // Why the unit must not look at these reported angles now; empty: it may.
+  // Returns why the unit must not point to these reported angles now (because of the sun); empty:
+  // it may.
   using KeepAway = std::function<std::string(const PanTilt&)>;
   void keep_away(KeepAway why) { keep_away_ = std::move(why); }
 
   // Runs to the end. A resumed session first reports its earlier results again, without motion.
-  // Throws StationStopped when the station is stopped or taken away, and std::runtime_error when it
-  // is lost. SIGTERM and SIGINT abort.
+  // Throws StationStopped if a person stops the station or takes control of it, and
+  // std::runtime_error if the station no longer answers. SIGTERM and SIGINT abort.
   Outcome run(FieldProcedure& procedure, const Adjust& adjust);
-  // The last message: how it ended.
+  // Publishes the last message: how the procedure ended.
   void announce(std::int8_t state, const std::string& text);
 
  private:
-  void turn();  // messages, signals, and once a second the state
+  void turn();  // handles messages and signals; publishes the state once a second
   void publish();
   bool still_replays(FieldProcedure& procedure);
   void replay(FieldProcedure& procedure, const Order& order);
@@ -40,13 +41,15 @@ class ProcedureRunner {
   void wait();
   void miss(FieldProcedure& procedure, const Order& order, const std::string& why);
   void note(JournalEntry entry);
-  // Approached from the wanted side. nullopt: aborted, or not reached.
+  // Takes a picture after approaching its angles from the requested side. Nullopt: the procedure
+  // was aborted, or the unit did not arrive.
   std::optional<FrameFile> picture_of(FieldProcedure& procedure, const Shot& shot);
-  // The same while the unit stands at these angles.
+  // Takes a picture at these angles.
   std::optional<FrameFile> picture_at(FieldProcedure& procedure, const PanTilt& angles,
                                       Arrival arrival, bool lossless);
   PanTilt before_approach(const Shot& shot) const;
-  // The content of a live question, and when the next picture is due (monotonic).
+  // The text of a question that is updated with new pictures, and when the next picture is due
+  // (monotonic).
   struct LiveQuestion {
     double due_s = 0.0;
     std::string text;
@@ -64,12 +67,12 @@ class ProcedureRunner {
   ProcedureSession* session_;
   ols_msg::procedure_t state_{};
   double began_s_ = 0.0, published_s_ = 0.0;
-  double turn_due_s_ = 0.0;            // next check whether the unit must turn away
+  double turn_due_s_ = 0.0;  // when to check next whether the unit must turn away from the sun
   std::int64_t ordered_utime_us_ = 0;  // when the stage gave the order
   std::int64_t questions_ = 0;
   cv::Size size_;                // [px] of the first picture
   std::optional<PanTilt> here_;  // angles of the last picture
-  bool sides_known_ = false;     // whether the last approach's direction is known
+  bool sides_known_ = false;     // whether the last picture states from which side the unit came
   KeepAway keep_away_;
   bool aborted_ = false;
 };

@@ -1,6 +1,6 @@
 // A procedure's data on disk while it runs: every picture with its counts, the observations, and
-// the results reported to it. Written immediately: a loss of power costs at most one picture, and
-// the procedure can be resumed.
+// the results reported to it. All of it is written immediately: a loss of power costs at most one
+// picture, and the procedure can be resumed.
 #pragma once
 
 #include <deque>
@@ -17,12 +17,12 @@ namespace ols::calibration {
 
 class ProcedureSession {
  public:
-  // `folder` exists. `station`: its id.
+  // `folder` must exist. `station`: the station's id.
   ProcedureSession(std::filesystem::path folder, std::string station)
       : folder_(std::move(folder)), station_(std::move(station)) {}
 
-  // Loads the folder: its reported results are replayed. Throws std::runtime_error naming file and
-  // line.
+  // Loads the folder, in order to replay the results stored there. Throws std::runtime_error naming
+  // file and line.
   void resume();
   bool is_replaying() const { return !replay_.empty(); }
   // True, once, if the next recorded event was a resumption.
@@ -39,7 +39,7 @@ class ProcedureSession {
   void write(const std::string& name, const std::string& text) const;
 
   const std::filesystem::path& folder() const { return folder_; }
-  // Numbers and stores the picture; returns it with its number. `is_view`: as in Shot.
+  // Gives the picture a number and stores it; returns it with the number. `is_view`: as in Shot.
   Taken add(FrameFile frame, bool is_view);
   void write_observations(const std::vector<Observation>& observations) const;
   std::filesystem::path observations_path() const { return folder_ / "observations.jsonl"; }
@@ -60,7 +60,8 @@ class ProcedureSession {
     std::filesystem::path file;
     Taken taken;  // without its picture
   };
-  std::map<std::int64_t, Frame> frames_;  // by pose; from before the interruption
+  // By the picture's number; only pictures from before the interruption.
+  std::map<std::int64_t, Frame> frames_;
 };
 
 }  // namespace ols::calibration

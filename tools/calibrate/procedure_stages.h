@@ -1,4 +1,4 @@
-// The parts of each procedure: the station's files, its stages, its adjustment.
+// The parts of each procedure: the station's files, the procedure's stages, and its adjustment.
 #pragma once
 
 #include <filesystem>
@@ -20,20 +20,20 @@ struct StationFiles {
   std::string config;  // path
   station::StationSettings settings;
   std::filesystem::path store;
-  std::string instrument_file;  // empty: a new unit
+  std::string instrument_file;  // empty: the unit has no calibration yet
   Instrument instrument;
 };
 
-// Throws ConfigError and others naming file and key, and std::invalid_argument for different serial
-// numbers.
+// Throws ConfigError and other exceptions that name file and key, and std::invalid_argument if the
+// files state different serial numbers.
 StationFiles read_station(const ProcedureOptions& options);
 
-// Checks the preconditions of any motion, and reports them to the person. Throws std::runtime_error
-// naming the obstacle.
+// Checks the preconditions of motion, and reports them to the person. Throws std::runtime_error
+// naming the one that is not met.
 void check_station(StationLink& link, const StationFiles& station, const ProcedureOptions& options,
                    Person& person);
 
-// In a procedure's folder: needed to resume it.
+// The file in a procedure's folder that is needed to resume it.
 inline constexpr const char* kSessionFile = "session.json";
 
 struct Procedure {
@@ -42,22 +42,23 @@ struct Procedure {
   std::shared_ptr<ReferenceFeed> references;  // null: there are no references
   std::shared_ptr<SunKeepOut> sun;            // null: the sun is not visible
   std::unique_ptr<FieldProcedure> field;
-  LandmarkStage* landmarks = nullptr;  // one of its stages; null: none
-  CaseOptions files;                   // of the adjustment
+  LandmarkStage* landmarks = nullptr;  // the stage with landmarks; null: there is none
+  CaseOptions files;                   // input of the adjustment
   std::optional<Adjusted> adjusted;    // the last adjustment
 
-  // Creates its stages. After this it must not be moved.
+  // Creates the stages. After this call, the object must not be moved.
   void plan(const StationFiles& station, StationLink& link, Person& person);
   Outcome run(ProcedureRunner& runner, Person& person);
   AdjustedResult adjust();
 };
 CaseOptions files_of(const ProcedureOptions& options, const StationFiles& station,
                      const ProcedureSession& session);
-// Without stages. Loads the data of a session that has begun.
+// A procedure without stages. Loads the data of a session that has begun.
 Procedure make_procedure(const ProcedureOptions& options, const StationFiles& station,
                          ProcedureSession& session);
 
-// The exit status. 0: nothing has moved; 1: something has, or this could not be determined.
+// Takes the views of the calibration in use again. Returns the exit status. 0: nothing has moved;
+// 1: something has moved, or this could not be determined.
 int run_check(const ProcedureOptions& options, const StationFiles& station,
               CalibrationStore& store);
 

@@ -1,5 +1,5 @@
-// The references of a running procedure: a copy in its folder, updated while a program appends to
-// the file, for example one that writes a drone's positions.
+// The references of a running procedure. Its folder has a copy of the file, which is updated while
+// a program appends to the file, such as a drone's ground station.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,8 @@ namespace ols::calibration {
 
 class ReferenceFeed {
  public:
-  // `copy`: written here, whole lines only. Throws CsvError naming file, line and column.
+  // `copy`: the path of the copy, which gets only complete lines. Throws CsvError naming file, line
+  // and column.
   ReferenceFeed(std::filesystem::path source, std::filesystem::path copy);
 
   // Copies the source again if it has grown. If it is missing or unreadable, the old copy stays,
@@ -24,7 +25,7 @@ class ReferenceFeed {
   const std::filesystem::path& path() const { return copy_; }
   const References& references() const { return references_; }
   std::vector<Place> landmarks() const;
-  // Empty while nothing of this name is known.
+  // Empty while there is no trajectory of this name.
   Trajectory trajectory(const std::string& name) const;
 
  private:

@@ -15,11 +15,11 @@ namespace ols::calibration {
 // The result of one station, as in its files.
 struct StationResult {
   std::string id;
-  std::int64_t calibration_id = 0;  // from the content of the files
+  std::int64_t calibration_id = 0;  // derived from the content of the files
   StationState state;
   StationMatrix prior_covariance, covariance;
   Acceptance acceptance;
-  std::string instrument, setup, covariance_csv;  // the files
+  std::string instrument, setup, covariance_csv;  // the content of the files
 };
 std::vector<StationResult> station_results(const Case& what, const Adjustment& adjustment,
                                            const Calibration& found);

@@ -1,4 +1,4 @@
-// A procedure's options, kept in its folder, so that it can be resumed without repeating them.
+// A procedure's options, stored in its folder: a person who resumes it need not repeat them.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace ols::calibration {
 
-// JSON.
+// The options as JSON.
 std::string session_text(const ProcedureOptions& options);
-// The options of the interrupted procedure, with the station, state, bus and script of `now`.
-// Throws std::runtime_error naming `path`.
+// The options of the interrupted procedure, with the station, state folder, bus and script of
+// `now`. Throws std::runtime_error naming `path`.
 ProcedureOptions resumed_options(const std::string& text, const ProcedureOptions& now,
                                  const std::string& path);
 

@@ -1,4 +1,4 @@
-// Reads the stations' sightings (OLS_SIGHTING_*) from recordings of the bus.
+// Reads the stations' sightings (channels OLS_SIGHTING_*) from recordings of the bus.
 #pragma once
 
 #include <string>
@@ -13,10 +13,11 @@ struct SightingLog {
   std::vector<FollowedSighting> sightings;  // of the requested stations
   std::size_t unusable = 0;                 // malformed, of another schema, or with impossible
                                             // values
-  std::size_t unsynchronised = 0;           // the station did not know the time
+  std::size_t unsynchronised = 0;           // the station's clock was not synchronised
   std::size_t disbelieved = 0;              // the tracker's belief was too low
   std::size_t of_others = 0;                // of other stations
-  std::vector<std::string> damage;  // of each damaged recording, with the places that are left out
+  // One text per damaged recording, with the places that were skipped.
+  std::vector<std::string> damage;
 };
 
 struct SightingLogOptions {
@@ -25,7 +26,7 @@ struct SightingLogOptions {
 };
 
 // Throws std::runtime_error naming a file that cannot be read, or a station whose unit's counts
-// differ from its instrument's. `tell`: progress in bytes of all recordings.
+// differ from its instrument's. `tell`: receives the progress in bytes of all recordings.
 SightingLog read_sightings(const SightingLogOptions& options, const std::vector<std::string>& names,
                            const std::vector<StationPrior>& stations, const TellSteps& tell = {});
 

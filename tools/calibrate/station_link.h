@@ -21,7 +21,7 @@
 
 namespace ols::calibration {
 
-// The station was stopped, by a person or an emergency. This ends the procedure.
+// The station was stopped, by a person or by the emergency stop. This ends the procedure.
 class StationStopped : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -32,62 +32,66 @@ struct FrameFile {
   bool lossless = true;
 };
 
-// kPasses: passing near the place is enough; the unit need not stand. kRests: it stands, wherever.
-// kAnywhere: whatever it does.
+// When a picture may be taken. kStands: at rest at the requested angles. kPasses: near the
+// requested angles, perhaps in motion. kRests: at rest, at any angles. kAnywhere: at any angles,
+// perhaps in motion.
 enum class Arrival { kStands, kPasses, kRests, kAnywhere };
 
 class StationLink {
  public:
-  // Signs as an operator. Null in mode off. Throws ConfigError.
+  // Opens the signatures, with which the procedure signs as an operator. Null in mode off. Throws
+  // ConfigError.
   static std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config);
-  // Throws BusError. `bus` must outlive it.
+  // Throws BusError. `bus` must outlive this object.
   StationLink(LcmBus& bus, std::string station);
 
-  // Handles messages for at most this long.
+  // Waits for messages and handles them, for at most this long.
   void handle(int timeout_ms) { bus_.handle(timeout_ms); }
-  // The newest status; waits at most within_s for one that is sent after this call.
+  // The newest status. First waits, at most `within_s`, for a status that is sent after this call.
   std::optional<ols_msg::station_status_t> status(double within_s);
-  double heard_s() const { return heard_s_; }  // monotonic, of the newest status
+  double heard_s() const { return heard_s_; }  // when the newest status arrived (monotonic)
   // Throws StationStopped.
   void check_not_stopped() const;
 
   // Whether the newest status shows that pointing would not end a stop (motion_leave.h).
   bool may_point() const;
-  // The unit's angles in its newest status; nullopt if it does not know them.
+  // The unit's angles in its newest status; nullopt if the unit does not know them.
   std::optional<PanTilt> angles() const;
-  // Sets the next place for the unit. From now on a picture from there is awaited. Sends nothing.
+  // Sets the next angles for the unit. From now on, a picture at these angles is awaited. Sends
+  // nothing.
   void set_out(const PanTilt& angles);
-  // Turns the unit to the place of the last set_out(). Call only if may_point().
+  // Orders the unit to the angles of the last set_out(). Call only if may_point().
   void point();
-  // Turns the unit at these rates for a moment; to go on, call it again within 0.3 s. The link must
-  // have pointed the unit before.
+  // Turns the unit at these rates for a moment. For a longer motion, call it again within 0.3 s
+  // each time. The link must have pointed the unit before.
   void turn_at(const PanTilt& rate_rad_s);
-  // Why the station refused to turn there, in words; empty: it has not refused.
+  // Why the station refused the last order to turn, in words; empty: it has not refused.
   const std::string& refusal() const { return refusal_; }
-  // Whether asking again is pointless. It is not while the unit does not answer, because its line
-  // may be interrupted. A unit whose power was cut comes back without a reference: that is for
-  // good.
+  // Whether the refusal is final. If the unit does not answer, the refusal is not final: its line
+  // may only be interrupted. If the unit has lost its reference after a power cut, it is final.
   bool is_refused_for_good() const { return !refusal_.empty() && !unit_may_come_back_; }
-  // Releases the unit, if this link has pointed it and a fresh status still shows manual operation.
-  // Otherwise a release would end a person's stop or another operator's hold. Waits for the answer.
-  // Returns false if the unit was not released.
+  // Releases the unit if this link has pointed it and a fresh status still shows manual operation.
+  // In any other case, a release could end a person's stop or another operator's manual operation.
+  // Waits for the answer. Returns false if the unit was not released.
   bool release();
-  // [s] The least interval between consecutive statuses; infinite if none came.
+  // [s] The shortest of a few intervals between consecutive statuses; infinite if no statuses came.
   double status_gap_s();
-  // Requests a frame taken at the place of the last set_out().
+  // Requests a frame; `arrival` says when it may be taken. "The requested angles" are those of the
+  // last set_out().
   void ask_frame(Arrival arrival, bool lossless);
-  // Returns the frame requested since the last set_out(), once.
+  // Returns the frame that was requested since the last set_out(), once.
   std::optional<FrameFile> take_frame();
   // The picture awaited since the last set_out().
   const AwaitedPicture& awaited() const { return awaited_; }
 
   void publish(ols_msg::procedure_t message);
-  // True once when a console wants to end the procedure.
+  // True, once, if a console has asked for an abort of the procedure.
   bool take_abort() { return answers_.take_abort(); }
-  // A console's answer to this question; other answers are dropped.
+  // A console's answer to this question; discards other answers.
   std::optional<Answer> take_answer(std::int64_t question) { return answers_.take(question); }
 
-  // Size of the unit's counts [rad], as it reports; nullopt before the first frame.
+  // The size of the unit's counts [rad], as the station reports it with each frame; nullopt before
+  // the first frame.
   const std::optional<PanTilt>& count() const { return count_; }
 
  private:
@@ -111,8 +115,8 @@ class StationLink {
   std::int64_t arrived_utime_us_ = 0;  // when the newest status arrived
   AwaitedPicture awaited_;
   ManualHold hold_;
-  std::int64_t pointed_sequence_ = 0, released_sequence_ = 0;  // sequence numbers of the last such
-                                                               // commands
+  // Sequence numbers of the last commands to point and to release.
+  std::int64_t pointed_sequence_ = 0, released_sequence_ = 0;
   std::string refusal_;
   bool unit_may_come_back_ = false;
   std::optional<bool> released_;  // the station's answer to the release
@@ -121,7 +125,7 @@ class StationLink {
   std::optional<PanTilt> count_;
 };
 
-// The facts in a status that preconditions() needs.
+// Extracts from a status the facts that preconditions() needs.
 StationFacts facts_of(const ols_msg::station_status_t& status);
 
 }  // namespace ols::calibration

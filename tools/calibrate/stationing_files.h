@@ -1,4 +1,5 @@
-// A surveyor's stationing: files in, a station's configuration out (calibration/stationing.h).
+// A surveyor's stationing (calibration/stationing.h): reads files, and writes a part of a station's
+// configuration.
 #pragma once
 
 #include <ostream>
@@ -14,13 +15,13 @@ struct StationingOptions {
   std::string station;    // its configuration, as ols-station reads it
   std::string landmarks;  // CSV: geodetic or UTM
   std::string sightings;  // CSV
-  std::string at;         // the landmark at the station's place; empty: [pose] gives it
+  std::string at;  // the landmark on which the station stands; empty: [pose] gives its position
   double pixel_sd_px = 1.0;
   double angles_sd_deg = 0.01;
-  double highest_deg = 45.0;  // max elevation of targets
+  double highest_deg = 45.0;  // max elevation of the sighted landmarks
 };
 
-// A sighting's landmark and the line of its row.
+// The landmark of a sighting, and its line in the file.
 struct SightingName {
   std::string landmark;
   unsigned line = 0;
@@ -38,16 +39,17 @@ struct StationingCase {
 // the station's position is unknown.
 StationingCase read_stationing(const StationingOptions& options);
 
-// Throws CsvError with the names and lines concerned: landmarks that contradict each other, no
-// landmarks, or landmarks that do not determine the heading.
+// Throws CsvError with the names and lines concerned: if the landmarks contradict each other, if
+// there are none, or if they do not determine the heading.
 Stationing find_station(const StationingCase& before, double highest_rad);
 
-// The tables of the station's configuration that the stationing has determined. Comments give its
-// tests, and what the landmarks determine.
+// Writes the tables of the station's configuration that the stationing has determined. Comments in
+// them give the results of its tests, and what the landmarks determine.
 void write_stationing(std::ostream& out, const StationingCase& before, const Stationing& found,
                       bool with_position);
 
-// Warnings for standard error: one line per rejected landmark, and one if deviations were scaled.
+// Warnings for standard error: one line per rejected landmark, and one line if the standard
+// deviations were scaled.
 std::vector<std::string> stationing_warnings(const StationingCase& before, const Stationing& found);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// Where a row of a survey's file puts its point.
+// Converts the coordinates in a row of a surveyor's file to a position.
 #pragma once
 
 #include <stdexcept>
@@ -12,8 +12,8 @@
 
 namespace ols::calibration {
 
-// `row`: of read_survey() or read_references(). Throws CsvError where the UTM coordinates are of no
-// place.
+// `row`: of read_survey() or read_references(). Throws CsvError if the UTM zone does not exist or
+// the coordinates are outside of it.
 template <class Row>
 Geodetic surveyed_place(const Row& row, const std::string& path) {
   if (const auto* place = std::get_if<GeodeticCells>(&row.place)) {

@@ -1,4 +1,4 @@
-// The file that describes a workshop's rectification targets.
+// Reads the file that describes a workshop's rectification targets.
 #pragma once
 
 #include <string>

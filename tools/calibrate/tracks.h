@@ -1,4 +1,4 @@
-// ols-calibrate tracks: what stations followed in recordings, as observations.
+// ols-calibrate tracks: converts the targets that stations followed in recordings to observations.
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ struct TracksOptions {
   std::string output;
 };
 
-// Writes. Throws std::runtime_error naming file or option.
+// Reads the recordings and writes the observations. Throws std::runtime_error naming file or
+// option.
 CommandReport write_tracks(const TracksOptions& options);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// Looks again at the views of a stored panorama and reports what has changed, by the rule of a
+// Takes the views of a stored panorama again and reports what has changed, by the rules of a
 // station's self-check (edge/calibration).
 #pragma once
 
@@ -18,13 +18,13 @@ struct StoredView {
   int approach_pan = 1, approach_tilt = 1;
 };
 
-// From a calibration's folder (frames.jsonl): up to six pictures of scenery, as far apart in pan as
-// possible. Throws std::runtime_error naming file and line.
+// Chooses up to six pictures of scenery from a calibration's folder (frames.jsonl), as far apart in
+// pan as possible. Throws std::runtime_error naming file and line.
 std::vector<StoredView> views_of(const std::filesystem::path& calibration);
 
 class ViewStage : public Stage {
  public:
-  // `angle_sd_rad`: of each angle at a stop.
+  // `angle_sd_rad`: 1-sigma of each angle of the unit at rest.
   ViewStage(std::vector<StoredView> views, const StationModel& model, double angle_sd_rad)
       : views_(std::move(views)), model_(model), angle_sd_rad_(angle_sd_rad) {}
 
@@ -35,7 +35,7 @@ class ViewStage : public Stage {
   std::vector<Observation> observations() const override { return {}; }
   double progress() const override;
 
-  // At the end: whether enough views could be compared, and whether the station has stayed in
+  // At the end: whether enough views could be compared. stands(): whether the station has stayed in
   // place.
   bool is_conclusive() const { return is_conclusive_; }
   bool stands() const;
@@ -49,7 +49,7 @@ class ViewStage : public Stage {
   StationModel model_;
   double angle_sd_rad_;
   std::size_t at_ = 0;
-  bool again_ = false;  // a second round, to confirm the first
+  bool again_ = false;  // in the second round, which confirms the first
   bool is_conclusive_ = false;
   std::vector<station::ViewOffset> offsets_;  // of this round
   station::DriftWatch watch_{{}, 0};

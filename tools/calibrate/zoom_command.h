@@ -17,8 +17,8 @@ struct ZoomOptions {
 
 CLI::App* add_zoom(CLI::App& app, ZoomOptions& options);
 
-// Writes the table. Returns the exit status: 0, or 1 if some position could not be measured. Throws
-// for bad input, and std::runtime_error if nothing can be measured.
+// Writes the table of focal lengths. Returns the exit status: 0, or 1 if some position could not be
+// measured. Throws for bad input, and std::runtime_error if nothing can be measured.
 int run_zoom(const ZoomOptions& options);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// The operator's side of the bus for cues: receives the fusion's report, sends an operator's
+// The operator's side of the bus for cues: receives the fusion's status and sends an operator's
 // decisions.
 #pragma once
 
@@ -20,11 +20,12 @@ class CueOperator {
   // Throws BusError, or ConfigError if it cannot sign.
   CueOperator(const std::string& lcm_url, const trust::TrustConfig& trust);
 
-  // The fusion's next status; nullopt: none came within this time, so there is no fusion.
+  // The fusion's next status; nullopt: no status came within this time, so no fusion runs.
   std::optional<ols_msg::fusion_status_t> listen(double timeout_s);
-  // The classes of the targets that were published since this object was made.
+  // The classes of the targets that have been published since this object was constructed.
   const TargetClasses& classes() const { return classes_; }
-  // Gives the order and waits for the answer. nullopt: it was accepted; otherwise why it was not.
+  // Sends the order and waits for the answer. Returns nullopt if the order was accepted, otherwise
+  // why not.
   std::optional<std::string> give(const wire::CueOrder& order, double timeout_s);
 
  private:

@@ -1,4 +1,4 @@
-// The cues from outside, as a table for a person. Pure.
+// Formats the cues from outside as a table for a person. Pure.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,8 @@
 
 namespace ols::ctl {
 
-// One line per station: first those that were heard, then the other enrolled ones.
+// One line per station: first the stations whose status was received, then the other enrolled
+// stations.
 std::string fleet_table(const std::map<std::string, ols_msg::station_status_t>& statuses,
                         const std::vector<std::string>& enrolled = {});
 

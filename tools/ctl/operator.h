@@ -15,7 +15,7 @@
 
 namespace ols::ctl {
 
-// An operator's signature. Throws ConfigError.
+// Opens the keys with which an operator signs. Throws ConfigError.
 std::shared_ptr<trust::BusTrust> open_operator_trust(const trust::TrustConfig& config,
                                                      std::int64_t boot_id);
 
@@ -26,28 +26,29 @@ class Operator {
   // `station` or "all". Throws BusError, or ConfigError if it cannot sign.
   Operator(const std::string& lcm_url, const trust::TrustConfig& trust, std::string station);
 
-  // Listens, and returns the newest status of each addressed station. For one named station: until
-  // its status arrives, at most timeout_s. For all: two status intervals.
+  // Listens, and returns the newest status of each addressed station. Listens for two status
+  // intervals if all stations are addressed, otherwise until the station's status arrives, at most
+  // `timeout_s`.
   const Statuses& listen(double timeout_s);
   // Whether the table of stations is full: then forged statuses may hide real stations.
   bool is_full() const { return statuses_.size() >= wire::kMostStationsHeard; }
 
-  // Those addressed stations that are on the trust list, heard or not; empty where signatures are
-  // off.
+  // The addressed stations that are on the trust list, whether or not a status has come from them;
+  // empty if signatures are off.
   std::vector<std::string> enrolled() const;
 
-  // Sends stops repeatedly to the addressed station, or to each as soon as it is heard. A stop
-  // needs no status, and may get lost. Ends when all answer that they stand, or after timeout_s.
-  // Returns whether each station confirmed.
+  // Sends stops repeatedly, because a stop may get lost. With "all", sends them to each station as
+  // soon as its status arrives; a named station needs no status. Ends when all stations have
+  // confirmed that they are stopped, or after `timeout_s`. Returns which stations have confirmed.
   std::map<std::string, bool> stop(double timeout_s);
 
   // Sends the order and waits for the answer; no status is needed. Returns nullopt if the order was
-  // accepted, otherwise why not. Homing takes half a minute: the answer only accepts it, and the
-  // status shows its result.
+  // accepted, otherwise why not. Homing takes half a minute: the answer says only that it was
+  // accepted, and the status later shows the result.
   std::optional<std::string> give(wire::Order order);
 
-  // Turns the unit for that long, then halts it: sends the rate again and again, each time with a
-  // lease. Ends at once if the station refuses.
+  // Turns the unit at a rate for this time, then halts it. Sends the rate repeatedly, each time
+  // with a lease. Ends immediately if the station refuses.
   std::optional<std::string> hold_rate(wire::Order order, double seconds);
 
  private:
@@ -63,8 +64,8 @@ class Operator {
   LcmBus bus_;
   Statuses statuses_;
   wire::OrderSender sender_;
-  std::map<wire::OrderId, wire::Reply> replies_;  // to this process
-  bool stopping_ = false;                         // stops every station that is heard
+  std::map<wire::OrderId, wire::Reply> replies_;  // replies to the orders of this process
+  bool stopping_ = false;  // while true, stops every station whose status arrives
 };
 
 }  // namespace ols::ctl

@@ -1,4 +1,5 @@
-// The subcommands of ols-ctl: each parses its words, and sets what is to be sent or shown.
+// The subcommands of ols-ctl. Each parses its arguments and sets in Words what ols-ctl will send or
+// show.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -35,9 +36,9 @@ struct Words {
   trust::TrustConfig trust;
   Look look = Look::kTable;
   bool stop = false;
-  bool cues = false;  // cues instead of a station
+  bool cues = false;  // show the cues instead of stations
   std::optional<wire::CueOrder> cue_order;
-  std::optional<Send> send;  // nullopt: stop or status
+  std::optional<Send> send;  // nullopt: the subcommand stops stations or shows something
 };
 
 // Adds every subcommand; parsing fills `words`.

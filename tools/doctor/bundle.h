@@ -1,4 +1,5 @@
-// Collects all that a remote helper needs to know about this host into one file without secrets.
+// Collects everything that a remote helper needs to know about this host in one file, without
+// secrets.
 #pragma once
 
 #include <map>
@@ -12,12 +13,12 @@ struct BundleContents {
   std::string version;  // of the product
   Findings findings;
   std::string configuration_folder;                  // its .toml, .env and .conf files are included
-  std::map<std::string, std::string> statuses = {};  // last heard, by station
+  std::map<std::string, std::string> statuses = {};  // the last status of each station
 };
 
-// Writes a gzipped tar archive of the contents and of this host's journal, services, clock, network
-// and disks. Throws std::runtime_error if it cannot be written. Failed queries are reported in the
-// archive.
+// Writes a gzipped tar archive with these contents and the states of this host's journal, services,
+// clock, network and disks. If a state cannot be queried, the archive says so. Throws
+// std::runtime_error if the archive cannot be written.
 void write_bundle(const std::string& file, const BundleContents& contents);
 
 }  // namespace ols::doctor

@@ -8,8 +8,9 @@
 
 namespace ols::doctor {
 
-// Never throws: the result holds the error. The station `own` is reported whenever it is heard,
-// even among many forged stations. A process without a trust list first waits for one.
+// Listens for `seconds`. Never throws: the result contains the error. The station `own` is always
+// reported if its status arrives, even among many forged stations. Without a trust list, first
+// waits for one.
 BusFacts listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
                 const std::string& own = "");
 

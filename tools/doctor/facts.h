@@ -1,4 +1,4 @@
-// The probes' results as plain values for the judgement. Pure.
+// The probes' results as plain values, from which the judge_ functions make findings. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace ols::doctor {
 
-// What a station's status message says.
+// The content of a station's status message.
 struct StationFacts {
   std::string id;
   std::string state;  // "tracking"
@@ -25,7 +25,7 @@ struct StationFacts {
   struct Calibration {
     bool in_use = false, doubted = false;
     double sd_rad = 0.0;  // 1-sigma of a direction, each axis
-    double age_s = 0.0;   // since its last observation; 0: not stated
+    double age_s = 0.0;   // since the last observation in it; 0: not stated
   } calibration;
   std::vector<Alarm> alarms;
   std::map<std::string, double> counters;
@@ -37,23 +37,23 @@ struct StationFacts {
 
 struct BusFacts {
   std::string url;
-  std::string trouble;        // why there is no bus; empty: the bus works
-  std::string interface;      // of the route by which messages go out; empty: unknown
+  std::string trouble;        // why the bus does not work; empty: it works
+  std::string interface;      // interface by which messages leave this host; empty: unknown
   int ttl = 0;                // 0: messages stay on this host
   std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: unknown
   std::map<std::string, StationFacts> stations;
   int fusions = 0;
   std::vector<Alarm> fusion_alarms;
-  bool is_verified = false;  // whether only signed messages are believed, or unsigned ones are at
-                             // least counted
-  Alarm trust_trouble{};     // what is wrong with keys and trust list; empty: no trouble
-  std::map<std::string, double> distrusted;  // counted while the doctor listened, by
-                                             // "bus_distrusted_<reason>"
+  // Whether signatures are checked: unsigned messages are ignored, or at least counted.
+  bool is_verified = false;
+  Alarm trust_trouble{};  // what is wrong with keys or trust list; empty: nothing
+  std::map<std::string, double> distrusted;  // number of messages that failed verification while
+                                             // the doctor listened, by "bus_distrusted_<reason>"
 };
 
 struct SerialFacts {
   std::string device;
-  int error = 0;                   // errno of opening the line; 0: it opens
+  int error = 0;                   // errno of opening the line; 0: it can be opened
   std::vector<std::string> users;  // other processes that have it open: "ols-station (1234)"
 };
 
@@ -64,7 +64,7 @@ struct PtuAxisAnswers {
 
 struct PtuAnswers {
   SerialFacts serial;
-  int baud = 0;  // the rate at which it answered; 0: no answer
+  int baud = 0;  // the rate at which the unit answered; 0: no answer
   int wanted_baud = 0, wanted_line_baud = 0;
   std::string version;
   PtuAxisAnswers pan, tilt;
@@ -84,10 +84,11 @@ struct LinkFacts {
 
 struct CameraAnswers {
   std::string device;
-  std::string trouble;  // why the camera cannot be used; empty: it can
+  std::string trouble;  // why the camera cannot be used; empty: it can be used
   std::string identity;
   bool controlled = false;  // whether another program controls it
-  bool has_clock = true;    // false: Aravis uses the host's time instead of the camera's
+  // False: Aravis stamps frames with the host's time instead of the camera's.
+  bool has_clock = true;
   std::optional<double> temperature_degC;
   std::vector<std::string> others;  // other cameras that answered a broadcast
   std::optional<LinkFacts> link;
@@ -95,13 +96,13 @@ struct CameraAnswers {
 };
 
 struct FolderFacts {
-  std::string name;  // its purpose
+  std::string name;  // the folder's purpose
   std::string folder;
-  int error = 0;  // errno of examining the folder, or of asking for write access
+  int error = 0;  // errno of the examination of the folder or of its write access; 0: none
   double free_bytes = 0.0, reserve_bytes = 0.0;
 };
 
-// From `systemctl show`.
+// A systemd unit, from the output of `systemctl show`.
 struct UnitFacts {
   std::string id, load, active, sub, result, status;
   int restarts = 0;

@@ -8,7 +8,7 @@
 
 namespace ols::doctor {
 
-enum class Verdict { kOk, kWarn, kFail };  // in ascending gravity
+enum class Verdict { kOk, kWarn, kFail };  // in order of severity
 
 struct Finding {
   Verdict verdict = Verdict::kOk;
@@ -24,18 +24,18 @@ inline Finding fail(std::string what, std::string advice) {
   return {Verdict::kFail, std::move(what), std::move(advice)};
 }
 
-// What the table of conditions advises for an alarm.
+// The advice for this alarm in the table of conditions.
 std::string advice_on(const Alarm& alarm);
 
 using Findings = std::vector<Finding>;
 
 void append(Findings& all, const Findings& more);
 
-// "FAIL  what  — what to do"
+// The finding as a line: "FAIL what — what to do".
 std::string line(const Finding& finding);
 // {"verdict": "warn", "findings": [{"verdict": "ok", "what": "...", "advice": ""}, ...]}
 std::string to_json(const Findings& findings);
-// The exit status for the gravest verdict: 0 ok, 1 warning, 2 failure.
+// The exit status for the most severe verdict: 0 ok, 1 warning, 2 failure.
 int exit_status(const Findings& findings);
 
 }  // namespace ols::doctor

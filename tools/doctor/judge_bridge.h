@@ -1,4 +1,4 @@
-// Judges the bridge to other sites by its own status. Pure.
+// Judges the bridge to other sites by the status that it writes. Pure.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace ols::doctor {
 
-// `status`: the text of the bridge's status file; empty: there is none.
+// `status`: the text of the bridge's status file; empty: there is no file.
 Findings judge_bridge(const std::string& status, std::int64_t utime_us);
 
 }  // namespace ols::doctor

@@ -1,4 +1,4 @@
-// Judges a station's devices, and says what to do. Pure.
+// Judges a station's devices and advises what to do. Pure.
 #pragma once
 
 #include "tools/doctor/facts.h"
@@ -8,7 +8,7 @@ namespace ols::doctor {
 
 // A device as the station or its own driver reports it.
 Finding judge(const device::DeviceReport& device);
-// nullopt if the line can be used.
+// Judges a serial line; nullopt: it can be used.
 std::optional<Finding> judge_line(const std::string& name, const SerialFacts& serial);
 Findings judge(const PtuAnswers& ptu);
 Findings judge(const CameraAnswers& camera);

@@ -1,4 +1,4 @@
-// Judges the bus and the stations heard on it, and says what to do. Pure.
+// Judges the bus and the stations whose statuses arrive on it, and advises what to do. Pure.
 #pragma once
 
 #include "tools/doctor/facts.h"

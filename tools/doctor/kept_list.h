@@ -1,5 +1,5 @@
-// The trust list by which a host examines itself: the configured list, otherwise the one that its
-// member has received and kept. The list is only read.
+// Chooses the trust list with which ols-doctor verifies messages: the configured list, or else the
+// list that a program of this host has received over the bus and stored. Only reads lists.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace ols::doctor {
 
-// Returns `config`; if it names no existing list, with the list that member `name` has kept.
+// Returns `config`. If its list does not exist, replaces it by the list that member `name` has
+// stored, provided that this list belongs to the member's site.
 trust::TrustConfig with_kept_list(trust::TrustConfig config, const trust::Environment& environment,
                                   const std::string& name);
 

@@ -1,5 +1,6 @@
-// Probes what the station would use. Probes devices only where no station runs, and never moves
-// one. No function throws: errors are in the answer.
+// Probes the devices and services that a station would use. Call the probes of devices only while
+// no station runs on this host; they never move a device. No function throws: errors are in the
+// results.
 #pragma once
 
 #include "edge/camera/aravis/aravis_config.h"
@@ -10,31 +11,34 @@
 
 namespace ols::doctor {
 
-// Opens and closes the line, unless one of our programs holds it: they lock it.
+// Opens and closes the line. Does not open it if one of our programs has locked it.
 SerialFacts look_at_line(const std::string& device, int baud);
 
-// Asks for version, resolution, limits and supply, first at the configured rates, then at the
-// others. Any byte ends a unit's scan mode (which none of our programs uses).
+// Queries the unit's version, resolution, limits and supply voltage. Tries the configured baud
+// rates first, then the others. The queries end a unit's scan mode, which none of our programs
+// uses.
 PtuAnswers ask_ptu(const ptu::PtuConfig& config);
-// Asks a mount or a camera of any kind, with the station's own code for it. Returns when the device
-// is well, or after `seconds`.
+// Run the station's own driver of a mount or a camera, of any kind, until the device reports that
+// it is well, but at most for `seconds`.
 device::DeviceReport ask_mount(const mount::MountKind& kind, double seconds);
 device::DeviceReport ask_camera(const camera::CameraKind& kind, double seconds);
 
-// All cameras that answer a broadcast.
+// A camera that answers a broadcast.
 struct CameraSeen {
-  std::string id, address;  // the id from Aravis; no address: not on the network
+  // `id`: from Aravis; `address`: empty if the camera is not on the network.
+  std::string id, address;
 };
 std::vector<CameraSeen> cameras_that_answer();
 
 // Opens the camera's control channel for a moment. Takes no frame.
 CameraAnswers ask_camera(const camera::AravisConfig& config);
 
-// Runs the sensors' own drivers until each is well, at most `seconds`.
+// Run the driver of a sensor or lens until the device reports that it is well, but at most for
+// `seconds`.
 device::DeviceReport ask_gnss(const sensors::GnssKind& kind, double seconds);
 device::DeviceReport ask_inclinometer(const sensors::InclinometerKind& kind, double seconds);
 device::DeviceReport ask_lens(const lens::LensMotorConfig& config, double seconds);
-// Reads the emergency stop. Outputs are not touched.
+// Reads the emergency stop input. Does not change outputs.
 device::DeviceReport ask_gpio(const gpio::GpioConfig& config);
 
 clock::ClockQuality ask_clock(const clock::ClockWatch::Config& config, double seconds);

@@ -1,19 +1,19 @@
-// Makes a text safe to show to strangers. Pure.
+// Removes secrets from a text before strangers see it. Pure.
 #pragma once
 
 #include <string>
 
 namespace ols::doctor {
 
-// The text with "[removed]" in place of possible secrets: everything behind the name of a key,
-// password or similar, up to the end of its line, or of its last line if it is quoted or bracketed;
-// private keys in PEM; long hexadecimal numbers; stored passwords; user names and passwords in
-// URLs. It removes too much rather than too little. Lines longer than kLongestLine are cut.
+// Returns the text with "[removed]" in place of possible secrets. These are the values after the
+// name of a key, password or similar, to the end of the line (a quoted or bracketed value: of its
+// last line); private keys in PEM; long hexadecimal numbers; stored passwords; user names and
+// passwords in URLs. When in doubt, it removes the text. Lines longer than kLongestLine are cut.
 std::string without_secrets(const std::string& text);
 inline constexpr std::size_t kLongestLine = 2000;
 
-// The same for a TOML file, by its grammar. If it cannot be parsed, only the position of the error
-// is given.
+// The same for a TOML file, which it parses. If the file cannot be parsed, returns only the
+// position of the error.
 std::string without_secrets_of_toml(const std::string& text);
 
 }  // namespace ols::doctor

@@ -1,4 +1,4 @@
-// Alarms as metrics. Pure.
+// Adds alarms to the metrics. Pure.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace ols::exporter {
 
-// Alarms of a "station", the "fusion" or the "bridge"; `station` is empty for the last two.
+// `program`: "station", "fusion" or "bridge". `station`: empty for the last two.
 void add_alarms(MetricCollection& all, const std::string& program, const std::string& station,
                 const std::vector<Alarm>& alarms);
 

@@ -1,5 +1,6 @@
-// ols-bridge's status as Prometheus metrics. The bridge has no key for the bus, so nobody would
-// believe its status there. The metrics therefore come from its status file on this host. Pure.
+// ols-bridge's status as Prometheus metrics. The bridge has no key for the bus, so a status there
+// could not be verified. The metrics therefore come from the bridge's status file on this host.
+// Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -10,8 +11,8 @@
 
 namespace ols::exporter {
 
-// status: the file's text; empty: there is no file. If the status is older than kStaleBridge_s or
-// missing, the only metric says that the bridge does not run.
+// `status`: the file's text; empty: there is no file. If the status is missing or older than
+// kStaleBridge_s, the only metric says that the bridge does not run.
 inline constexpr double kStaleBridge_s = 10.0;
 std::vector<prometheus::MetricFamily> bridge_metrics(const std::string& status,
                                                      std::int64_t utime_us);

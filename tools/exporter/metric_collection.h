@@ -1,4 +1,4 @@
-// Samples of one metric after another, in the order of their first use. Pure.
+// Collects samples, grouped by metric; metrics are in the order of their first sample. Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>

@@ -1,6 +1,5 @@
-// The site's statuses as Prometheus metrics, with base units and names by its conventions. No
-// target
-// ids, because labels live for ever. Pure.
+// The site's statuses as Prometheus metrics, with base units and names by Prometheus' conventions.
+// Target ids are no labels, because Prometheus stores every value of a label for ever. Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -18,8 +17,8 @@ namespace ols::exporter {
 
 class SiteMetrics {
  public:
-  // Max number of stations. A station that is silent for kForget_s is dropped, but still reported
-  // as enrolled, so that alerts about it last.
+  // Max number of stations. A station that is silent for kForget_s is forgotten, but still reported
+  // as enrolled: alerts about it do not end.
   static constexpr std::size_t kMostStations = 1000;
   static constexpr double kForget_s = 86400.0;
   // Max number of names (readings, counters, devices) per message.
@@ -27,12 +26,12 @@ class SiteMetrics {
 
   explicit SiteMetrics(std::string version) : version_(std::move(version)) {}
 
-  // Take only verified statuses. Times are monotonic.
+  // Takes a status. Pass only verified statuses. Times are monotonic.
   void receive(const ols_msg::station_status_t& status, double now_s);
   void receive(const ols_msg::fusion_status_t& status, double now_s);
-  // The stations of the trust list. Stations that have left it are no longer reported.
+  // Takes the stations of the trust list. Stations that are no longer on it are no longer reported.
   void know(std::vector<std::string> enrolled);
-  // Messages that failed verification, by reason, since the start.
+  // Takes the number of messages since the start that failed verification, by reason.
   void hear_distrusted(std::map<std::string, double> by_reason);
 
   std::vector<prometheus::MetricFamily> families(double now_s) const;

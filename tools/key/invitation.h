@@ -1,5 +1,5 @@
-// What a new member must know about its site: the secret for site tags and the root's public key,
-// as 128 hexadecimal digits. Pure.
+// An invitation tells a new member about its site: the secret for site tags and the root's public
+// key, as 128 hexadecimal digits. Pure.
 #pragma once
 
 #include <string>

@@ -14,16 +14,16 @@ namespace ols::key {
 
 using Lists = std::map<std::int64_t, trust::TrustList>;  // of one site, by number
 
-// The number of the trust list that a message publishes. nullopt if that list is not one of
-// `lists`, or the sender is no member of it. Also nullopt if a station sent it: stations publish no
-// lists, and their keys are the most likely to be stolen.
+// The number of the trust list that a message publishes. Nullopt if this list is not one of
+// `lists`, or the sender is not a member of it. Also nullopt if the sender is a station: stations
+// publish no lists, and a station's key is the most likely to be stolen.
 std::optional<std::int64_t> told_number(const Lists& lists, std::string_view channel,
                                         trust::Bytes message);
 
 class LogCheck {
  public:
   // `lists` must contain the list with number `first`, which is the first one in the recording.
-  // Without the site's secret, tags are not checked; the signatures prove more anyway.
+  // Tags are not checked, because that needs the site's secret; the signatures prove more.
   LogCheck(Lists lists, std::int64_t first);
 
   // Takes one recorded message.
@@ -33,10 +33,10 @@ class LogCheck {
     std::uint64_t good = 0;
     std::map<std::string, std::uint64_t> bad;  // by reason
   };
-  // By channel.
+  // The numbers of good and bad messages, by channel.
   const std::map<std::string, Count>& channels() const { return channels_; }
   std::uint64_t bad() const;
-  // The numbers of the lists that were in force, in order.
+  // The numbers of the trust lists that were in force, in order.
   const std::vector<std::int64_t>& in_force() const { return in_force_; }
   // A table for a person.
   std::string text() const;

@@ -1,4 +1,5 @@
-// A site's root key, trust list and members' keys as files, for ols-key and ols-setup.
+// Reads and writes the files of a site's root key, trust list and members' keys, for ols-key and
+// ols-setup.
 #pragma once
 
 #include <cstdint>
@@ -34,14 +35,15 @@ trust::TrustList enrol_with_key(const SiteFiles& files, trust::Member member,
                                 const std::string& key_path);
 trust::TrustList revoke_in(const SiteFiles& files, const std::string& name);
 
-// Copies the list beside the root key (root.key: root.trust.toml), so that a centre can be restored
-// after the loss of its disk. Returns the path; empty if the list itself is in that folder.
+// Copies the list into the root key's folder (root.key: root.trust.toml), in order to restore a
+// centre after the loss of its disk. Returns the path of the copy; empty if the list itself is in
+// that folder.
 std::string copy_list(const SiteFiles& files);
-// Restores a lost list from the copy. Returns whether it was lost.
+// Restores the list from the copy if it is missing. Returns whether it was missing.
 bool restore_list(const SiteFiles& files);
 
-// Signs the settings in a person's file `wanted`, and writes them to `path`. They get the next
-// number after the existing ones, or after `above`. Returns the number.
+// Signs the settings in a person's file `wanted`, and writes them to `path`. Their number is the
+// next one after that of the existing settings and after `above`. Returns the number.
 std::int64_t sign_settings_in(const SiteFiles& files, const std::string& wanted,
                               const std::string& path, std::int64_t above,
                               const trust::SettingsCheck& check);

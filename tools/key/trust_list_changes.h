@@ -1,4 +1,4 @@
-// The changes that the holder of a site's root key makes to its trust list. Pure.
+// The changes that the holder of a site's root key makes to the site's trust list. Pure.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace ols::key {
 
-// List number 1, without members. Throws std::invalid_argument for a bad name.
+// Makes list number 1, without members. Throws std::invalid_argument for a bad name.
 trust::TrustList new_list(const std::string& site, const trust::PublicKey& root);
 
-// Returns the next list, with this member. If the member already has a key, it gets the new one,
-// and the old one is revoked. Throws std::invalid_argument if the name has another role, or if the
-// key is known.
+// Returns the next list, with this member. If the member already has a key, the new key replaces
+// it, and the old key is revoked. Throws std::invalid_argument if the list has the name with
+// another role, or has the key already.
 trust::TrustList enrol(const trust::TrustList& list, const trust::Member& member);
 
 // Returns the next list, with this member's keys revoked. Throws std::invalid_argument if there is

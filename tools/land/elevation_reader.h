@@ -1,4 +1,4 @@
-// Elevation models that GDAL reads, as heights on a lattice of latitude and longitude.
+// Reads elevation models with GDAL, as heights on a lattice of latitude and longitude.
 #pragma once
 
 #include <limits>
@@ -8,21 +8,21 @@
 
 namespace ols::land {
 
-// Limit for the heights within a site's radius: 2 GB.
+// Max number of heights within a site's radius (2 GB).
 inline constexpr double kMostHeights = 5e8;
 
 struct Bounds {
   double south_deg = 0.0, north_deg = 0.0, west_deg = 0.0, east_deg = 0.0;
 };
 Bounds bounds_around(double latitude_deg, double longitude_deg, double radius_km);
-// What to add to a longitude for it to be the one nearest to the middle of the bounds: whole turns.
-// Bounds of a site near 180 degrees reach beyond it.
+// The whole turns (a multiple of 360) to add to a longitude, so that it is nearest to the middle of
+// the bounds. The bounds of a site near longitude 180 reach beyond 180.
 double turns_deg(const Bounds& bounds, double longitude_deg);
 
-// The heights of one file within the bounds, as the file has them; NaN: not known.
+// The heights of one file within the bounds, with the file's own zero; NaN: not known.
 struct Raster {
   std::string name;
-  double north_deg = 0.0, west_deg = 0.0;  // of the first height
+  double north_deg = 0.0, west_deg = 0.0;  // position of the first height
   double step_latitude_deg = 0.0, step_longitude_deg = 0.0;
   int rows = 0, columns = 0;
   std::vector<float> heights_m;
@@ -36,9 +36,9 @@ struct ReadElevation {
   std::vector<std::string> notes;
 };
 
-// Throws std::runtime_error naming the file: it cannot be read, is damaged, states no place, has an
-// unknown unit of height, or has more than kMostHeights within the bounds. A model that is not on a
-// lattice of latitude and longitude is resampled to one with its own resolution.
+// Throws std::runtime_error naming the file if it cannot be read, is damaged, is not georeferenced,
+// has an unknown unit of height, or has more than kMostHeights within the bounds. A model that is
+// not on a lattice of latitude and longitude is resampled to one with its own resolution.
 ReadElevation read_elevation(const std::string& path, const Bounds& bounds);
 
 }  // namespace ols::land

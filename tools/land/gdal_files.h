@@ -1,4 +1,5 @@
-// GDAL's files, closed at the end of their scope. GDAL's messages are kept for an exception's text.
+// GDAL's files, which are closed at the end of their scope, and GDAL's messages, for the texts of
+// exceptions.
 #pragma once
 
 #include <cpl_error.h>

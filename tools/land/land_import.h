@@ -1,4 +1,5 @@
-// ols-land import: collects all that is known about a site's land in one folder.
+// ols-land import: collects the elevation models, buildings and woods of a site's land in one
+// folder.
 #pragma once
 
 #include <string>
@@ -10,8 +11,8 @@ struct ImportOptions {
   double latitude_deg = 0.0, longitude_deg = 0.0;  // of the site
   double radius_km = 40.0;
   std::vector<std::string> elevation, buildings, woods;  // paths
-  // The zero of the models' heights: a geoid's grid for PROJ, or "ellipsoid". Empty: as the kind of
-  // file says, if it does.
+  // The zero of the models' heights: a geoid grid of PROJ, or "ellipsoid". Empty: as the kind of
+  // file implies, if it does.
   std::string heights;
   double sd_m = 4.0;  // 1-sigma of the models' heights
   std::string licence;
@@ -19,7 +20,7 @@ struct ImportOptions {
   std::string output;
 };
 
-// Returns what was found, in words for people; the manifest has the same text. Throws
+// Returns a description of the land for people; the manifest has the same text. Throws
 // std::runtime_error.
 std::vector<std::string> import_land(const ImportOptions& options);
 

@@ -1,5 +1,5 @@
-// Joins the files of elevation models: files on one lattice become one grid. Finds files that do
-// not fit together.
+// Joins the files of elevation models: files on one lattice become one grid. Finds files whose
+// heights contradict each other.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace ols::land {
 
 struct Mosaic {
   std::vector<NewGrid> grids;      // the finest first
-  std::vector<std::string> notes;  // how files differ where they meet
+  std::vector<std::string> notes;  // differences between files where they meet
 };
 
 // `rasters`: heights above the ellipsoid, with 1-sigma `sd_m`. Where files of one lattice overlap,

@@ -1,7 +1,7 @@
-// One recording: a bus connection, and a thread that writes its messages into logs.
+// One recording: a connection to the bus, and a thread that writes the messages into logs.
 //
-// lcm-logger is not used: a forged fragment crashes its liblcm (base/bus/bus_datagram.h), and it
-// keeps writing into a file that was deleted.
+// LCM's own lcm-logger is not used: a forged fragment crashes liblcm (base/bus/bus_datagram.h), and
+// lcm-logger continues to write into a file that was deleted.
 #pragma once
 
 #include <atomic>
@@ -22,23 +22,23 @@
 namespace ols::logger {
 
 struct RecorderReport {
-  std::string file;                  // being written
+  std::string file;                  // the file being written
   std::optional<std::string> ended;  // why the recording ended
-  std::uint64_t messages = 0;        // written
-  std::uint64_t dropped = 0;         // lost because the disk was too slow
-  std::uint64_t files_lost = 0;      // deleted, renamed or replaced while they were written
-  std::string bus_alarm;             // of the bus monitor
+  std::uint64_t messages = 0;        // number of messages written
+  std::uint64_t dropped = 0;         // messages lost because the disk was too slow
+  std::uint64_t files_lost = 0;      // files that were deleted, renamed or replaced during writing
+  std::string bus_alarm;             // alarm of the bus monitor
   BusTraffic traffic;
 };
 
 class BusRecorder {
  public:
-  // With `file`, records only into that file; otherwise into new ones in the configured folder.
+  // Records only into `file`, or, if `file` is empty, into new files in the configured folder.
   // Throws BusError, or std::system_error if the first file cannot be created.
   explicit BusRecorder(const LoggerConfig& config, const std::string& file = "");
-  // Writes the waiting messages unless discard() was called.
+  // Writes the messages in the queue, unless discard() was called.
   ~BusRecorder();
-  // For a full disk: drops the waiting messages.
+  // Call if the disk is full: discards the messages in the queue.
   void discard() { discard_ = true; }
 
   RecorderReport report() const;
@@ -75,7 +75,8 @@ class BusRecorder {
   std::shared_ptr<trust::BusTrust> trust_;
   struct Lists {
     TrustLists received;
-    // Numbers of the last list beside the logs and in the present file; used only by the thread.
+    // Numbers of the last list stored beside the logs, and of the last list in the current file;
+    // used only by the thread.
     std::int64_t kept = 0, written = 0;
   };
   Lists lists_;

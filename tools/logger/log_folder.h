@@ -1,4 +1,5 @@
-// The folder of the logs: lists them, and removes the oldest. Only files NAME-*.lcmlog.* count.
+// The folder of the logs: lists the logs and removes the oldest. Logs are the files
+// NAME-*.lcmlog.*; all others are ignored.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +18,11 @@ class LogFolder {
  public:
   LogFolder(const std::string& folder, const std::string& name);
 
-  // Lists the logs. Creates a missing folder. Throws std::system_error if it is no folder, or not
-  // writable.
+  // Lists the logs. Creates a missing folder. Throws std::system_error if the path is not a folder
+  // or is not writable.
   void survey();
-  // Removes the oldest logs until the quota and the disk (beyond its reserve) have room for
-  // `headroom_bytes` more. Never removes the file `keep`. Throws std::system_error if a file cannot
+  // Removes the oldest logs until another `headroom_bytes` fit within the quota and on the disk
+  // (without its reserve). Never removes the file `keep`. Throws std::system_error if a file cannot
   // be removed.
   void remove_oldest(double quota_bytes, double reserve_bytes, double headroom_bytes,
                      const std::string& keep);

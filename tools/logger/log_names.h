@@ -1,5 +1,5 @@
-// The names of a logger's files: FOLDER/NAME-<UTC>.lcmlog.NN. They sort by time, as long as UTC is
-// not set back.
+// Chooses the names of a logger's files: FOLDER/NAME-<UTC>.lcmlog.NN. Sorted names are in the order
+// of time, unless UTC is set back.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ class LogNames {
 
  private:
   std::string folder_, name_;
-  std::string time_;  // of the last name
-  int number_ = 0;    // of the next name for that time
+  std::string time_;  // UTC in the last name
+  int number_ = 0;    // NN of the next name with this UTC
 };
 
 }  // namespace ols::logger

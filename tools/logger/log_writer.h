@@ -16,14 +16,14 @@ class LogWriter {
   // Creates the file. Throws std::system_error naming the file; it must not exist yet.
   explicit LogWriter(const std::string& path);
 
-  // Both throw std::system_error naming the file if writing fails.
+  // write() and flush() throw std::system_error naming the file if writing fails.
   void write(const BusMessage& message);
   void flush();
 
   const std::string& path() const { return path_; }
   std::uint64_t bytes() const { return bytes_; }
-  // Whether the open file still has its name. Writes to a deleted, renamed or replaced file succeed
-  // but are lost.
+  // Whether the open file is still at its path. Writing to a deleted, renamed or replaced file
+  // gives no error, but the data are lost.
   bool is_in_place() const;
 
  private:

@@ -1,4 +1,4 @@
-// Keeps a recording running within its quota; pauses it while the disk is full or not writable.
+// Keeps a recording running within the quota; pauses it while the disk is full or not writable.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@ namespace ols::logger {
 
 struct LoggerStatus {
   bool recording = false;
-  std::string text;  // the file being written, or why there is none
+  std::string text;  // the file being written, or why nothing is recorded
   std::size_t files = 0;
   double bytes = 0.0, free_bytes = 0.0;
-  std::string bus_alarm;         // of the bus monitor
+  std::string bus_alarm;         // alarm of the bus monitor
   std::uint64_t starts = 0;      // number of started recordings
-  std::uint64_t failures = 0;    // unrequested ends, and failed starts
-  std::uint64_t removed = 0;     // files, for the quota
-  std::uint64_t files_lost = 0;  // deleted, renamed or replaced while they were written
+  std::uint64_t failures = 0;    // recordings that failed to start or ended by themselves
+  std::uint64_t removed = 0;     // files removed because of the quota
+  std::uint64_t files_lost = 0;  // files that were deleted, renamed or replaced during writing
   std::uint64_t dropped = 0;     // messages lost because the disk was too slow
   std::uint64_t fragments = 0;   // refused datagrams of the bus
   std::uint64_t malformed = 0;   // refused datagrams of the bus
 };
 
-// JSON, one line.
+// The status as one line of JSON.
 std::string to_json(const LoggerStatus& status, std::int64_t utime_us);
 
 class Supervisor {
@@ -49,7 +49,7 @@ class Supervisor {
   std::unique_ptr<BusRecorder> recorder_;
   std::string trouble_;  // why nothing is recorded; empty while recording
   double started_s_ = 0.0;
-  double retry_s_ = 0.0;  // earliest next start
+  double retry_s_ = 0.0;  // time of the earliest next start
   double pause_s_;
   std::uint64_t starts_ = 0, failures_ = 0;
   LoggerStatus ended_;  // totals of earlier recordings

@@ -1,5 +1,6 @@
-// The site's trust lists on their way into a log. Each must be written before the first message
-// that was judged by it, however long that message waited. One thread receives, another writes.
+// The queue of the site's trust lists for a log. Each list must be written before the first message
+// that was verified with it, however long that message has waited in its own queue. One thread
+// receives lists, another thread writes them.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +14,19 @@ namespace ols::logger {
 struct ReceivedList {
   std::int64_t number = 0;
   std::string text{};
-  // as a message; nullopt if the recorder is not a member: nobody would believe the message
+  // the list as a message; nullopt if the recorder is not a member of the site, because nobody
+  // would then believe the message
   std::optional<std::vector<std::uint8_t>> telling{};
 };
 
 class TrustLists {
  public:
   std::int64_t newest() const;  // number of the newest list; 0: there is none
-  // `list` must have a higher number than all before.
+  // The number of `list` must be greater than that of all earlier lists.
   void add(ReceivedList list);
-  // The lists that must precede a message judged by list `judged_by`, in order. `written`: the
-  // number of the last list in this file; 0: there is none, so the file begins with the list that
-  // judged its first message. Older lists are dropped.
+  // The lists that must be written before a message that was verified with list `judged_by`, in
+  // order. `written`: the number of the last list in the current file; 0: the file has no list yet,
+  // and begins with list `judged_by`. Discards older lists.
   std::vector<ReceivedList> due(std::int64_t judged_by, std::int64_t written);
 
  private:

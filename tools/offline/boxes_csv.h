@@ -1,4 +1,4 @@
-// boxes.csv: frame,x,y,w,h,belief,state.
+// Writes boxes.csv, with the columns frame,x,y,w,h,belief,state.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -1,4 +1,5 @@
-// Computes what a site's stations see over its land, on a lattice of latitude and longitude.
+// Computes where over a site's land its stations can see targets, on a lattice of latitude and
+// longitude.
 #pragma once
 
 #include <cstddef>
@@ -15,24 +16,27 @@
 namespace ols::offline {
 
 struct Lattice {
-  double north_rad = 0.0, west_rad = 0.0;                    // of the first cell's centre
-  double step_latitude_rad = 0.0, step_longitude_rad = 0.0;  // both positive: south and east
+  double north_rad = 0.0, west_rad = 0.0;  // centre of the first cell
+  // Southward and eastward, both positive.
+  double step_latitude_rad = 0.0, step_longitude_rad = 0.0;
   std::size_t rows = 0, columns = 0;
 
   std::size_t size() const { return rows * columns; }
-  Geodetic centre(std::size_t cell) const;  // row by row from the north; at height 0
+  // Cells are numbered row by row from the north; the height is 0.
+  Geodetic centre(std::size_t cell) const;
 };
 
-// Cells are `spacing_m` long in both directions, up to `reach_m` from a place. Throws
-// std::invalid_argument for more than a million.
+// A lattice that reaches `reach_m` in each direction from `middle`, with cells of `spacing_m` in
+// both directions. Throws std::invalid_argument if it would have more than a million cells.
 Lattice lattice_around(const Geodetic& middle, double reach_m, double spacing_m);
 
 struct CoverageCell {
-  std::optional<double> ground_m;  // ellipsoidal; nullopt where the land is not known
-  // The lowest heights above the ground [m] that one station sees, and that two see.
+  std::optional<double> ground_m;  // ellipsoidal height; nullopt: the land is not known
+  // The lowest height above the ground [m] that at least one station sees, and the lowest that at
+  // least two see.
   std::optional<double> one_m, two_m;
-  std::vector<std::optional<double>> errors_m;  // 3-D, 1-sigma, at each height, from the stations
-                                                // that see it
+  // 1-sigma of the 3-D position at each height, from the stations that see it.
+  std::vector<std::optional<double>> errors_m;
 };
 
 struct Coverage {
@@ -41,7 +45,7 @@ struct Coverage {
   std::vector<CoverageCell> cells;
 };
 
-// A station and what the land hides from it.
+// A station, and the map of what the land hides from it.
 struct LandView {
   PlannedStation station;
   std::shared_ptr<const land::HorizonMap> map;
@@ -49,7 +53,7 @@ struct LandView {
 
 using TellCells = std::function<void(std::size_t done, std::size_t all)>;
 
-// `make_target` gives the target at a place, as planned_target() does.
+// `make_target`: returns the target at a place, as planned_target() does.
 Coverage cover(const Lattice& lattice, const std::vector<double>& heights_m,
                const std::vector<LandView>& views, const PlannedLand& land,
                const std::function<PlannedTarget(const Geodetic&)>& make_target, double exposures,

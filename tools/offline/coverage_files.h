@@ -1,4 +1,4 @@
-// A coverage as CSV, GeoTIFF and GeoJSON.
+// Writes a coverage as CSV, GeoTIFF or GeoJSON.
 #pragma once
 
 #include <string>
@@ -9,16 +9,15 @@
 
 namespace ols::offline {
 
-// A row for each cell: latitude_deg, longitude_deg, ground_m, one_m, two_m, and error_N_m for each
-// height of N metres.
+// One row per cell, with latitude_deg, longitude_deg, ground_m, one_m, two_m, and error_N_m for
+// each height of N metres.
 void write_coverage_csv(const std::string& path, const Coverage& coverage);
 
-// The same columns, from ground_m on, as bands of 32-bit floats on WGS84; NaN where there is no
-// value.
+// The columns from ground_m on as bands of 32-bit floats, on WGS84; NaN: no value.
 void write_coverage_geotiff(const std::string& path, const Coverage& coverage);
 
-// For each height, the outlines of the area that two stations or more see (property
-// `above_ground_m`); also the stations.
+// The outlines of the area that at least two stations see, for each height (property
+// `above_ground_m`), and the stations.
 void write_coverage_geojson(const std::string& path, const Coverage& coverage,
                             const std::vector<StationRow>& stations);
 

@@ -1,4 +1,4 @@
-// Writes fixes.csv row by row, so that a million rows need not fit into memory.
+// Writes fixes.csv row by row: even a million rows need little memory.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct FixRow {
   int stations_used = 0;
   int stations_set_aside = 0;
   double crossing_angle_deg = 0.0;
-  double residual = 0.0;  // RMS of the normalised residuals; NaN: empty cell
+  double residual = 0.0;  // RMS of the normalised residuals; NaN is written as an empty cell
 };
 
 class FixWriter {
  public:
-  // The old file is unchanged until commit(), and after an error (std::system_error).
+  // An old file stays unchanged until commit(), and also after an error (std::system_error).
   explicit FixWriter(const std::string& path);
   void add(const FixRow& fix);
   void commit();

@@ -1,4 +1,4 @@
-// Images from a clip, a folder of images or a printf pattern, in order: grey and in colour.
+// Reads the images of a clip, a folder or a printf pattern in order, in grey and in colour.
 #pragma once
 
 #include <memory>
@@ -24,11 +24,12 @@ class FrameSource {
   // The next image; nullopt at the end. Throws FrameSourceError if an image cannot be read, or if a
   // clip ends before its announced number of frames.
   std::optional<cv::Mat> next();
-  // The newest image in colour: 8-bit, blue, green, red; empty if it has none.
+  // The newest image in colour: 8-bit, blue, green, red; empty if the image has no colours.
   const cv::Mat& colour() const { return colour_; }
-  // The clip's frame rate; 30 if it states none.
+  // The clip's frame rate; 30 if the clip does not state it.
   double frames_per_second() const { return frames_per_second_; }
-  // The announced number of frames, for progress only: a clip may have a few less. 0: unknown.
+  // The announced number of frames, for progress only: a clip may have a few frames less. 0:
+  // unknown.
   std::size_t announced() const { return files_.empty() ? announced_ : files_.size(); }
   // The image files of a folder or pattern; empty for a clip.
   const std::vector<std::string>& files() const { return files_; }

@@ -29,8 +29,9 @@ struct GeoPoint {
   GeoPosition position;
 };
 
-// The first ring is the outline, the others are holes. Each ends where it begins. Across the date
-// line, longitudes continue beyond 180 degrees: neighbours differ by less than half a circle.
+// The first ring is the outline, the others are holes. Each ring ends at its first point. Across
+// the date line, longitudes continue beyond 180 degrees: consecutive longitudes never differ by
+// more than half a circle.
 using GeoPolygon = std::vector<std::vector<GeoPosition>>;
 
 struct GeoShapes {
@@ -38,19 +39,19 @@ struct GeoShapes {
   std::vector<GeoPolygon> polygons;
 };
 
-// Points and polygons, alone or in features and collections. Throws GeoJsonError for anything else,
-// for positions out of range, and for rings that are not closed or go round a pole.
+// Reads points and polygons, alone or in features and collections. Throws GeoJsonError for any
+// other geometry, for positions out of range, and for rings that are not closed or enclose a pole.
 GeoShapes read_geojson(const std::string& path);
 
-// A point with its height and the property "station".
+// A feature of a point with its height and the property "station".
 nlohmann::json station_feature(const std::string& station, const GeoPosition& position);
 
-// Whether the point is inside the outline and outside the holes, as plane figures of longitude and
-// latitude. Good for areas of some kilometres away from the poles.
+// Whether the point is inside the outline and outside the holes, with longitude and latitude as
+// plane coordinates. Suitable for areas of some kilometres that are not near a pole.
 bool contains(const GeoPolygon& polygon, double longitude_deg, double latitude_deg);
 
-// The points of an even east-north grid of this spacing inside any of the polygons, at the given
-// height. Throws std::invalid_argument if there would be more than a million.
+// The points of a regular east-north grid with this spacing that are inside any of the polygons, at
+// this height. Throws std::invalid_argument if there would be more than a million points.
 std::vector<Geodetic> fill(const std::vector<GeoPolygon>& polygons, double spacing_m,
                            double height_m);
 

@@ -1,4 +1,5 @@
-// mount.csv: frame,azimuth_deg,elevation_deg,hfov_deg: where a clip's camera pointed.
+// Reads mount.csv, where a clip's camera pointed, with the columns
+// frame,azimuth_deg,elevation_deg,hfov_deg.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,14 +10,15 @@
 
 namespace ols::offline {
 
-// Azimuths may have any zero direction; hfov is that of the whole image's width.
+// Azimuths may have any zero direction. hfov_deg is the horizontal field of view of the whole
+// image.
 class MountFile {
  public:
   MountFile() = default;
   explicit MountFile(const std::string& path);  // throws CsvError
 
-  // The camera's rotation from the previous frame to this one: maps the previous image's pixels to
-  // this one's. nullopt: the file lacks one of the two frames.
+  // The homography that the camera's rotation and zoom cause: it maps the previous image's pixels
+  // to those of image `frame`. Nullopt: the file has no row for one of the two.
   std::optional<Eigen::Matrix3d> motion_to(long frame, const cv::Size& image) const;
 
  private:

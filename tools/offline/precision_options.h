@@ -10,7 +10,7 @@
 
 namespace ols::offline {
 
-// Errors of the stations' measurements, for values that stations.csv does not state.
+// The errors of the stations' measurements where stations.csv does not state them.
 struct MeasurementOptions {
   double pixel_sd_px = 0.5;
   double pixel_um = 3.75;
@@ -26,8 +26,8 @@ struct MeasurementOptions {
 
 void add_measurement_options(CLI::App& app, MeasurementOptions& options);
 
-// A row's position_sd_m replaces the option for the position. Its pointing_sd_deg replaces the
-// options for heading, tilt and mounting together.
+// A station with these options. The row's position_sd_m replaces the option for the position; its
+// pointing_sd_deg replaces the options for heading, tilt and mounting together.
 PlannedStation planned_station(const StationRow& row, const MeasurementOptions& options);
 std::vector<PlannedStation> planned_stations(const std::vector<StationRow>& rows,
                                              const MeasurementOptions& options);

@@ -1,4 +1,4 @@
-// timing.csv: frame, total_ms and the milliseconds of each stage.
+// Writes timing.csv, with the columns frame, total_ms and the milliseconds of each stage.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace ols::offline {
 
-// Processor time of this thread [s], unaffected by other programs.
+// The processor time of this thread [s]. Other programs do not affect it.
 double thread_time_s();
 
 class TimingFile {
  public:
-  // Gives the tracker a clock. Throws if the file cannot be written.
+  // Gives `tracker` a clock for its stages. Throws if the file cannot be written.
   TimingFile(const std::string& path, tracker::Tracker& tracker);
 
   void write(long frame, double total_s, const tracker::StageTimes& stages);

@@ -1,4 +1,4 @@
-// The tracker's parameters, from the command line and a file.
+// Reads the tracker's parameters from the command line and a file.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace ols::offline {
 
-// From the table [tracker] of a TOML file, or the defaults if `path` is empty. `mode` ("paper" or
-// "full") overrides the file's; empty: the file's. Throws ConfigError.
+// Reads the table [tracker] of a TOML file; if `path` is empty, returns the defaults. `mode`
+// ("paper" or "full") replaces the file's mode; empty: keeps it. Throws ConfigError.
 tracker::TrackerConfig load_tracker_config(const std::string& path, const std::string& mode);
 
 }  // namespace ols::offline

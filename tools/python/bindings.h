@@ -1,4 +1,5 @@
-// Shared by the files of the module `ols`: one bind_... function per subject, and data classes.
+// Shared by the files of the Python module `ols`: one bind_... function per subject, and functions
+// that make data classes.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -17,7 +18,7 @@ void bind_trust(py::module_& m);
 void bind_offline(py::module_& m);
 void bind_recording(py::module_& m);
 
-// Name(field=value, ...), in the order of the definition.
+// The text Name(field=value, ...), with the fields in the order of their definition.
 inline std::string fields_repr(const py::object& self, const char* name) {
   std::string text;
   const py::object property = py::module_::import("builtins").attr("property");
@@ -30,7 +31,8 @@ inline std::string fields_repr(const py::object& self, const char* name) {
   return name + ("(" + text + ")");
 }
 
-// For pickle: the class, called with its settable fields, which must be all that it has.
+// Python's __reduce__ for pickle: how to construct the object again, from its settable fields. A
+// class must have no other state.
 inline py::tuple reduce_fields(const py::object& self) {
   py::dict fields;
   const py::object property = py::module_::import("builtins").attr("property");
@@ -43,8 +45,9 @@ inline py::tuple reduce_fields(const py::object& self) {
   return py::make_tuple(partial(py::type::of(self), **fields), py::tuple());
 }
 
-// A plain struct as a Python class. It is constructed from keywords (other fields keep their
-// defaults; an unknown one is a TypeError), copied by copy.copy() and copy.deepcopy(), and pickled.
+// Makes a Python class of a plain struct. Its objects are constructed from keywords; fields that
+// are not given keep their defaults, and an unknown field is a TypeError. They can be copied by
+// copy.copy() and copy.deepcopy(), and pickled.
 template <typename T>
 py::class_<T> data_class(py::module_& m, const char* name, const char* doc) {
   py::class_<T> bound(m, name, doc);

@@ -1,7 +1,8 @@
 // Converts Eigen matrices of fixed size to and from numpy arrays of float64.
 //
-// pybind11/eigen.h is not used: Debian's pybind11 2.10 calls numpy's CopyInto by its slot of numpy
-// 1 there, and crashes under numpy 2. The functions used here have the same slots in both.
+// pybind11/eigen.h is not used, because it crashes under numpy 2: in Debian's pybind11 2.10, it
+// calls CopyInto by its slot in numpy 1's table of functions. The functions used here have the same
+// slots in numpy 1 and 2.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -29,7 +30,8 @@ struct type_caster<Eigen::Matrix<double, Rows, Cols>> {
   static handle cast(const Matrix& matrix, return_value_policy policy, handle /*parent*/) {
     const Eigen::Matrix<double, Cols, Rows> row_major = matrix.transpose();
     array_t<double> copy(our_shape(), row_major.data());
-    // A field comes as a copy. Writing to its elements would be lost, so numpy is to refuse it.
+    // Reading a field gives a copy. numpy must refuse to write its elements, because the field
+    // would not change.
     if (policy == return_value_policy::reference_internal) {
       copy.attr("flags").attr("writeable") = false;
     }

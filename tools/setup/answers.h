@@ -1,10 +1,10 @@
 // The input of ols-setup for a host: a file, or a person's answers.
 //
 //   role = "station"                # or "centre"
-//   interface = "eth0"              # that leads to the other hosts; left out: none
-//   invitation = "…"                # a station's: what ols-setup says at the centre
-//   neighbours = ["10.0.0.1"]       # other hosts of the site, for the time without GNSS
-//   serial = ["/dev/ttyUSB0"]       # where to look for devices; left out: all serial adapters
+//   interface = "eth0"              # the interface to the other hosts; left out: none
+//   invitation = "…"                # only for a station: printed by ols-setup at the centre
+//   neighbours = ["10.0.0.1"]       # other hosts of the site, which give the time without GNSS
+//   serial = ["/dev/ttyUSB0"]       # where to search for devices; left out: all serial adapters
 //   [station]                       # keys of its configuration file (docs/configuration.md)
 //   id = "alfa"
 //   [station.pose]
@@ -12,7 +12,7 @@
 //
 //   role = "centre"
 //   site = "airfield"
-//   root = "/media/stick/root.key"  # the site's root key; made there if there is none
+//   root = "/media/stick/root.key"  # the site's root key; created there if it does not exist
 //   [fusion]                        # [logger], [exporter], [console] likewise
 //
 // Pure.
@@ -32,17 +32,17 @@ struct Answers {
   std::vector<std::string> serial{}, neighbours{};
   std::string gnss{};            // device of the receiver that gpsd should read
   std::string station{};         // id
-  key::Invitation invitation{};  // of a station
-  std::string site{}, root{};    // of the centre
+  key::Invitation invitation{};  // only for a station
+  std::string site{}, root{};    // only for the centre
   Values values{};               // all answers: "station.pose.heading_deg"
 };
 
-// The devices of camera and mount may be missing: they can be searched for. Throws ConfigError
+// The devices of camera and mount may be missing: ols-setup can search for them. Throws ConfigError
 // naming `name`, line and key.
 Answers read_answers(const std::string& text, const std::string& name);
 
-// The text of a program's configuration file from the answers of this section, with the trust mode
-// `require`. Throws ConfigError naming `name` if something is missing.
+// Each function makes the text of a program's configuration file from the answers of its section,
+// with the trust mode `require`. Throws ConfigError naming `name` if an answer is missing.
 std::string station_file(const Values& station, const std::string& name);
 std::string fusion_file(const Values& fusion, const std::string& name);
 std::string logger_file(const Values& logger, const std::string& name);

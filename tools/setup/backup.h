@@ -1,4 +1,5 @@
-// One file with everything that identifies a host: configuration, keys, calibrations, states.
+// Saves everything that identifies a host in one file, and restores it: configuration, keys,
+// calibrations, persisted states.
 #pragma once
 
 #include <string>
@@ -8,16 +9,18 @@
 
 namespace ols::setup {
 
-// Throws std::runtime_error. The file holds private keys: its mode is 0600.
+// Writes the file. It contains private keys, so its mode is 0600. Throws std::runtime_error.
 void back_up(const Host& host, const std::string& file);
-// Returns the units to start. A trust list or settings newer than those in the backup are not
-// replaced, nor are marks against replays. If the file holds anything that is not part of a backup,
-// throws std::runtime_error before anything is written.
+// Restores the file; returns the systemd units to start. Does not replace a trust list or settings
+// that are newer than those in the backup, and never replaces the marks against replays
+// (never_older.h). If the file contains anything that is not part of a backup, throws
+// std::runtime_error before it writes anything.
 std::vector<std::string> restore(const Host& host, const std::string& file);
 
 // Whether this member of an archive ("etc/ols/alfa.toml") belongs to a backup. Pure.
 bool is_of_backup(const std::string& member);
-// The units that were enabled; if there are none, those that the host's configuration needs. Pure.
+// The systemd units that were enabled, from the names in a backup; if there are none, the units
+// that the host's configuration needs. Pure.
 std::vector<std::string> units_of(const std::vector<std::string>& members);
 
 }  // namespace ols::setup

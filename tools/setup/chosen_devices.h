@@ -1,4 +1,4 @@
-// Searches for the devices that the answers leave open. Of several, a person chooses.
+// Searches for the devices that the answers do not name. If it finds several, a person chooses.
 #pragma once
 
 #include "tools/setup/answers.h"
@@ -6,8 +6,8 @@
 
 namespace ols::setup {
 
-// Adds them to the answers. `asks`: a person is there. Throws std::runtime_error naming the key
-// that would say which device it is.
+// Adds the devices to the answers. `asks`: whether a person can be asked. Throws std::runtime_error
+// naming the key with which a person can name the device.
 void choose_devices(const Host& host, Answers& answers, bool asks);
 
 }  // namespace ols::setup

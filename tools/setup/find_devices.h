@@ -1,4 +1,4 @@
-// Finds this host's cameras, PTU and GNSS receiver. Nothing is moved.
+// Finds this host's PTUs and GNSS receivers. Moves nothing.
 #pragma once
 
 #include <optional>
@@ -7,18 +7,18 @@
 
 namespace ols::setup {
 
-// Serial adapters by stable names: /dev/ols/*, /dev/serial/by-id/*, otherwise /dev/ttyUSB* and
-// ttyACM*.
+// The serial adapters, by stable names where there are any (/dev/ols/*, /dev/serial/by-id/*),
+// otherwise /dev/ttyUSB* and ttyACM*.
 std::vector<std::string> serial_lines();
 
-// The lines on which a unit answers, with its version: (device, version).
+// A line on which a PTU answers, with the unit's version and baud rate.
 struct FoundPtu {
   std::string device, version;
   int baud = 0;
 };
 std::vector<FoundPtu> find_ptus(const std::vector<std::string>& lines);
 
-// The lines on which a GNSS receiver sends NMEA sentences or UBX.
+// The lines on which a GNSS receiver sends NMEA sentences or UBX messages.
 std::vector<std::string> find_receivers(const std::vector<std::string>& lines);
 // Whether these bytes are part of a receiver's output. Pure.
 bool is_receiver_talk(const std::string& bytes);

@@ -1,4 +1,5 @@
-// Finds ONVIF cameras on the networks of this host, and learns what one can do. Nothing is moved.
+// Finds ONVIF cameras on the networks of this host, and queries what a camera offers. Moves
+// nothing.
 #pragma once
 
 #include <string>
@@ -10,21 +11,21 @@
 
 namespace ols::setup {
 
-// Reports the answers that were refused.
+// Finds the cameras; reports answers that it refused.
 std::vector<onvif::FoundCamera> find_onvif();
 
 // "PTZ 4 at http://10.0.0.5/onvif/device_service"
 std::string words_of(const onvif::FoundCamera& camera);
 
-// What the camera offers whose device service is at `url`. Throws onvif::LoginRefused,
+// Queries what a camera offers. `url`: of its device service. Throws onvif::LoginRefused,
 // onvif::AnswerError, onvif::HttpError.
 onvif::Offer learn_onvif(const std::string& url, const onvif::Credentials& login,
                          const std::string& pinned_key);
 
-// A person's login. The password is not shown while it is typed.
+// Asks a person for a login. The password is not shown while it is typed.
 onvif::Credentials ask_login();
 
-// Keeps the password in a file of the host that only the services can read; returns its path.
+// Stores the password in a file that only the host's services can read; returns the path.
 std::string keep_password(const Host& host, const std::string& station,
                           const std::string& password);
 

@@ -1,4 +1,4 @@
-// How ols-setup rewrites a file and keeps a person's changes. Pure.
+// Rewrites a file but keeps a person's changes in it. Pure.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@ struct Rewrite {
   std::string note{};                 // for a person
 };
 
-// `present`: the file as it is; nullopt: there is none. `last`: what ols-setup would have written
-// at its last run; nullopt: it never ran. `wanted`: what it would write now. Only the differences
-// between the last two are changed, in place: comments and other values stay. Throws
-// std::runtime_error if the file's form does not allow that.
+// `present`: the existing text; nullopt: there is no file. `last`: the text that ols-setup wanted
+// at its last run; nullopt: it never ran. `wanted`: the text that it wants now. In `present`,
+// changes only what differs between `last` and `wanted`: comments and other values stay. Throws
+// std::runtime_error if the form of the file does not allow that.
 Rewrite rewrite(const std::optional<std::string>& present, const std::optional<std::string>& last,
                 const std::string& wanted);
-// The same for a file that is not TOML: it is replaced only if nobody has changed it.
+// The same for a file that is not TOML: replaces the whole file, but only if nobody has changed it.
 Rewrite rewrite_whole(const std::optional<std::string>& present,
                       const std::optional<std::string>& last, const std::string& wanted);
 

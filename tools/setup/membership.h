@@ -1,4 +1,4 @@
-// How a host becomes a member of its site, with its private keys in /etc/credstore.
+// Makes a host a member of its site, with its private keys in /etc/credstore.
 #pragma once
 
 #include <string>
@@ -9,19 +9,20 @@
 
 namespace ols::setup {
 
-// A station creates its own key, unless it has one of this site, and prints the command to be run
-// at the centre. Both functions return the paths of new keys. Throw ConfigError, std::system_error;
-// std::invalid_argument for a key of another site.
+// For a station: creates its key, unless it has a key of this site, and prints the command that
+// must be run at the centre. This function and make_site() return the paths of new keys. They throw
+// ConfigError, std::system_error, and std::invalid_argument if there is a key of another site.
 std::vector<std::string> join_site(const Host& host, const std::string& station,
                                    const key::Invitation& invitation);
 
-// The centre: the root key and the list, unless they exist, and a key for each of its programs. A
-// lost list is restored from the copy beside the root key. Prints the stations' invitation.
+// For the centre: creates the root key and the trust list, unless they exist, and a key for each of
+// the centre's programs. Restores a lost list from the copy beside the root key. Prints the
+// invitation for stations.
 std::vector<std::string> make_site(const Host& host, const std::string& site,
                                    const std::string& root);
 
-// Gives chrony the key by which the hosts of a site authenticate each other's time. Does nothing if
-// chrony has no key file.
+// Gives chrony the key with which the hosts of a site authenticate their time messages. Does
+// nothing if chrony has no key file.
 void keep_time(const Host& host, const trust::SiteKey& site);
 
 }  // namespace ols::setup

@@ -1,5 +1,6 @@
-// Files that a restore must not replace by older ones: the site's trust list and settings, because
-// an older list believes keys that have been revoked since; and the marks against replays.
+// Files that a restore must not replace by older ones. These are the site's trust list and
+// settings, because an older list trusts keys that have since been revoked, and the marks against
+// replays.
 #pragma once
 
 #include <string>
@@ -13,8 +14,8 @@ class NeverOlder {
  public:
   // Reads the present files. Throws std::system_error.
   explicit NeverOlder(const Host& host);
-  // Puts back each file that was replaced by an older one, and reports it. Marks have no number:
-  // the previous ones stay. Throws std::system_error.
+  // Writes back each file that was replaced by an older one, and prints its path. Marks have no
+  // number to compare: the previous marks are always written back. Throws std::system_error.
   void put_back() const;
 
  private:

@@ -1,5 +1,5 @@
-// An ONVIF camera as the devices of a station: its stream is the camera, its motion the mount.
-// Pure.
+// Makes an ONVIF camera the devices of a station: its stream is the camera, its motors are the
+// mount. Pure.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ namespace ols::setup {
 std::string words_of(const onvif::Offer::Stream& stream);
 
 struct OnvifLogin {
-  std::string user, password_file;  // both empty: none is needed
+  std::string user, password_file;  // both empty: no login is needed
 };
 
-// Fills in what the answers, under [station], leave open. `url`: of the device service. A camera
-// that reports no degrees gets scales that are usual, until they are measured. Throws
-// std::runtime_error if its motion is wanted and it has none.
+// Adds the values that the answers under [station] lack. `url`: of the device service. If the
+// camera does not report degrees, the scales of its angles are typical values until they are
+// measured. Throws std::runtime_error if the answers want its motion and it cannot move.
 void add_onvif(Values& values, const std::string& url, const onvif::Offer::Stream& stream,
                const OnvifLogin& login);
 

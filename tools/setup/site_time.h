@@ -1,5 +1,6 @@
-// A host's time service, from its answers: GNSS first, otherwise the site's other hosts,
-// authenticated by a key that all members derive from the site's secret. Pure.
+// Configures a host's time service from its answers. The time comes from GNSS, or else from the
+// site's other hosts. These authenticate it with a key that all members derive from the site's
+// secret. Pure.
 #pragma once
 
 #include <string>
@@ -12,11 +13,13 @@ namespace ols::setup {
 // The number of the site's key in chrony's key file.
 inline constexpr int kTimeKey = 7316;
 
-// /etc/chrony/conf.d/ols-site.conf. `neighbours`: addresses of the other hosts.
+// The text of /etc/chrony/conf.d/ols-site.conf. `neighbours`: addresses of the other hosts.
 std::string chrony_file(const std::vector<std::string>& neighbours);
-// /etc/chrony/conf.d/ols-gnss.conf: time from gpsd's receiver. Without a fix it has no effect.
+// /etc/chrony/conf.d/ols-gnss.conf: time from gpsd's receiver. It has no effect while the receiver
+// has no fix.
 std::string receiver_chrony_file();
-// /etc/chrony/chrony.keys with the site's key; all other lines are unchanged.
+// The text of /etc/chrony/chrony.keys (`present`) with the site's key; all other lines are
+// unchanged.
 std::string with_time_key(const std::string& present, const trust::SiteKey& site);
 
 }  // namespace ols::setup
