@@ -1,4 +1,4 @@
-// Where the skyline of a simulated picture truly is.
+// The true skyline of a simulated picture.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace ols::bench {
 
-// The row of each strip in the picture that was drawn last, which may be outside of it [px]: the
-// mean of its columns, because trees are narrower than a strip.
+// The row [px] of the skyline in each strip of the picture that was drawn last. It is the mean over
+// the strip's columns, because trees are narrower than a strip. It may be outside of the picture.
 inline std::vector<double> drawn_rows(const sim::Panorama& panorama) {
   const std::vector<float>& columns = panorama.ridge_rows_px();
   std::vector<double> rows;

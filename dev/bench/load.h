@@ -1,4 +1,4 @@
-// Shared by the benchmarks that run under load.
+// Functions for the benchmarks that run under load.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,11 @@
 
 namespace ols::bench {
 
-// Calls `act` with 0, 1, … at an even rate. Calls that became due while this process did not run
-// follow at once.
+// Calls `act` with 0, 1, … at a constant rate. If this process was suspended, the calls that became
+// due in the meantime follow immediately.
 void at_rate(double rate_hz, double seconds, const auto& act) {
-  constexpr timespec kNap{0, 200'000};  // some messages of a flood each time
+  // Short: only a few messages of a flood become due.
+  constexpr timespec kNap{0, 200'000};
   const double begin_s = clock_monotonic_s();
   const auto total = static_cast<std::size_t>(std::llround(rate_hz * seconds));
   for (std::size_t turn = 0; turn < total;) {
@@ -24,7 +25,7 @@ void at_rate(double rate_hz, double seconds, const auto& act) {
   }
 }
 
-// The smallest value that this share of the values does not exceed; NaN if there are no values.
+// The quantile of the values for this share (0.5: the median); NaN if there are no values.
 inline double quantile(std::vector<double> values, double share) {
   if (values.empty()) return NAN;
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

@@ -1,5 +1,5 @@
-// The pictures of the simulated ONVIF camera for ols-bench-onvif: a landscape at its true angles,
-// or what a camera may see instead of one.
+// The pictures of the simulated ONVIF camera for ols-bench-onvif: a landscape at the camera's true
+// angles, or a scene that disturbs measurements.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -13,8 +13,8 @@ namespace ols::bench {
 enum class Scene {
   kLandscape,
   kBlank,    // a sky without any structure
-  kDrifts,   // all that is seen moves by itself, as clouds do
-  kPassing,  // for some seconds an object covers most of the picture, and moves
+  kDrifts,   // everything in the picture moves, like clouds
+  kPassing,  // for some seconds, a moving object covers most of the picture
 };
 
 // The station's geometry: a wide lens of a PTZ camera, 640 x 480.

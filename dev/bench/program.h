@@ -1,4 +1,4 @@
-// The whole of a benchmark's main() once its options are declared.
+// The main() of a benchmark, after its options have been declared.
 #pragma once
 
 #include <cstdio>
@@ -9,7 +9,8 @@
 
 namespace ols::bench {
 
-// Returns the exit status. An exception of `run` is printed under the app's name.
+// Parses the command line and calls `run`; returns the exit status. Prints an exception of `run`
+// with the app's name.
 int run_program(CLI::App& app, int argc, char** argv, const auto& run) {
   const std::string name = app.get_name();
   if (const auto status = parse_command_line(app, argc, argv, name.c_str())) return *status;

@@ -12,10 +12,12 @@
 
 namespace ols::bench {
 
-// 50 mm focal length and pixels of 3.75 um: 1 px = 75 urad. No distortion; 2.7 by 2.2 degrees.
+// 50 mm focal length and pixels of 3.75 um: 1 px = 75 urad. No distortion. The field of view is 2.7
+// by 2.2 degrees.
 CameraIntrinsics bench_camera(cv::Size picture = {640, 512});
 
-// Rotates from the camera to east-north-up, for a level camera that looks along this axis.
+// The rotation from camera axes to east, north, up, for a camera without roll that points along
+// `axis`.
 Eigen::Matrix3d camera_rotation(const AzimuthElevation& axis);
 
 // K R_2^T R_1 K^-1: maps pixels of an image taken at `from` to pixels of one taken at `to`.
@@ -24,7 +26,7 @@ Eigen::Matrix3d rotation_between(const CameraIntrinsics& camera, const AzimuthEl
 
 enum class Backdrop { kBlankSky, kLandscape };
 
-// One landscape for all cases, because it takes a second to make.
+// The landscape. All cases share one, because making it takes a second.
 class Landscape {
  public:
   explicit Landscape(const CameraIntrinsics& camera);
@@ -39,11 +41,12 @@ class Landscape {
   cv::Mat drawn_;
 };
 
-// Noise of every pixel, with standard deviation kNoiseSd; read at random places of a long strip.
+// White noise of the pixels with standard deviation kNoiseSd, read from random positions of a long
+// strip.
 class PixelNoise {
  public:
   PixelNoise();
-  // The image as read from the sensor: noise added, rounded to 8 bits.
+  // The image as the sensor returns it: with noise, and rounded to 8 bits.
   cv::Mat develop(const cv::Mat1f& picture, tracker::Random& random) const;
 
  private:

@@ -1,10 +1,10 @@
-// Scenes without any target, for the false alarms of a detector: what the weather does before a
-// camera that stands still. Each is drawn anew from its seed and does not repeat itself: textures
-// drift against each other, plants swing by random gusts, and drops, insects and stars are drawn at
-// random.
+// Scenes without any target, which measure the false alarms of a detector: weather in front of a
+// camera at rest. Each scene is drawn from its seed and is not periodic: textures drift against
+// each other, plants swing in random gusts, and drops, insects and stars are random.
 //
-// The camera has 1 px = 75 urad (bench_camera()), an aperture of 6 to 18 mm and exposes for 1 to 10
-// ms: a thing nearer than 40 m is out of focus by several pixels, and a drop of rain is a streak.
+// The camera has 1 px = 75 urad (bench_camera()), an aperture of 6 to 18 mm, and exposures of 1 to
+// 10 ms. An object nearer than 40 m is therefore blurred over several pixels, and a raindrop is a
+// streak.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,15 +25,15 @@ class Weather {
   Weather(const Weather&) = delete;
   Weather& operator=(const Weather&) = delete;
 
-  // The next picture before the sensor's noise [grey levels], `interval_s` after the last.
+  // The next picture [grey levels] without the sensor's noise, `interval_s` after the last one.
   virtual const cv::Mat1f& next(double interval_s) = 0;
-  // How stars move in the picture, as the station computes it; nullopt by day.
+  // The motion of the stars in the picture, as the station computes it; nullopt by day.
   virtual std::optional<Eigen::Vector2d> star_drift_px_s() const { return std::nullopt; }
 };
 
 struct WeatherKind {
   std::string name;
-  bool before_sky;  // otherwise before the ground
+  bool before_sky;  // false: the background is the ground
   std::function<std::unique_ptr<Weather>(const cv::Size& picture, std::uint64_t seed)> make;
 };
 const std::vector<WeatherKind>& weather_kinds();

@@ -1,5 +1,5 @@
-// Simulated tracks of objects of known class: the classifier learns from them and is measured with
-// them. Deterministic by the seed.
+// Simulated tracks of objects of known class, with which the classifier is trained and tested. The
+// same seed gives the same tracks.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@ inline constexpr std::array<SimulatedKind, 7> kSimulatedKinds = {{
     {"meteor", fusion::ObjectClass::kOther},
 }};
 
-// 1-sigma of the errors of what is seen; 0: the truth.
+// 1-sigma of the errors of the observed features; 0: no error.
 struct LookNoise {
-  double size = 0.0;       // relative, of one image
-  double size_bias = 0.0;  // relative, the same for the whole track, not stated
-  double speed_m_s = 0.0;  // of each axis of the velocity, correlated over a second
-  double ground_m = 0.0;   // of the height above the ground, the same for the whole track
+  double size = 0.0;       // of the size in one image, relative; independent
+  double size_bias = 0.0;  // of the size, relative; constant over a track, and not stated
+  double speed_m_s = 0.0;  // of each axis of the velocity; correlated over a second
+  double ground_m = 0.0;   // of the height above the ground; constant over a track
 };
 
 struct TimedLook {
@@ -38,7 +38,7 @@ struct TimedLook {
   fusion::ClassLook look;
 };
 
-// `duration_s` of an object of kSimulatedKinds[kind], a look four times a second.
+// Observes an object of kSimulatedKinds[kind] four times a second for `duration_s`.
 std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoise& noise,
                                       std::mt19937_64& random);
 

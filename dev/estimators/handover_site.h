@@ -1,6 +1,6 @@
-// A site that hands targets over, in simulated time and without pictures. An overview station
-// stares at everything; other stations turn to where the fusion leads them. Detectors report what
-// has been in view for a while. Deterministic by the seed.
+// A site that hands targets over, in simulated time and without pictures. A fixed overview station
+// sees the whole sky; the other stations turn to where the fusion leads them. Their detectors
+// report a target after it has been in view for a while. The same seed gives the same run.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,23 +16,25 @@
 namespace ols::bench {
 
 struct FlyingTarget {
-  Eigen::Vector3d p_enu = Eigen::Vector3d::Zero();  // [m] when it appears
+  Eigen::Vector3d p_enu = Eigen::Vector3d::Zero();  // [m] at the time when it appears
   Eigen::Vector3d v_enu = Eigen::Vector3d::Zero();
   double appears_s = 0.0;
 };
 
 struct HandoverSiteConfig {
-  std::vector<Eigen::Vector3d> stations_enu;  // that turn [m]; all look up to the north at first
+  // Stations that turn [m]; at first, all point upwards to the north.
+  std::vector<Eigen::Vector3d> stations_enu;
   std::optional<Eigen::Vector3d> overview_enu{};
-  bool stations_turn = true;    // false: they stare at all of the sky, too
-  bool stations_track = false;  // a led station's tracker follows what it acquires
+  bool stations_turn = true;  // false: they, too, are fixed and see the whole sky
+  // True: after acquisition, the tracker of a led station follows the target.
+  bool stations_track = false;
   std::vector<FlyingTarget> targets;
   double view_rad = 0.08;  // field of view of the stations that turn
   double rate_hz = 15.0;
   double noise_rad = 3e-4;
-  double confirm_s = 0.2;  // time in view until a led station has acquired the target
-  double delay_s = 0.1;    // from the exposure to the fusion
-  double slew_s = 0.05;    // from the fusion to the servo
+  double confirm_s = 0.2;  // time in view until a led station acquires the target
+  double delay_s = 0.1;    // delay from the exposure to the fusion
+  double slew_s = 0.05;    // delay from the fusion to the servo
   fusion::HandoverConfig handover{};
 };
 
@@ -42,13 +44,14 @@ class HandoverSite {
 
   void run_until(double time_s);
   fusion::Fusion& fusion() { return fusion_; }
-  // All stations start again: they still see the same targets, but number them from 1 again.
+  // Restarts all stations: they still see the same targets, but number them from 1 again.
   void restart_stations();
-  // The stations whose detectors report the target now, without the overview.
+  // The stations, without the overview station, whose detectors report the target now.
   std::vector<std::string> holders(std::size_t target) const;
-  // The fusion's established target that is now at this simulated target; 0: there is none.
+  // The id of the confirmed or coasting track that the fusion now has at this simulated target; 0:
+  // there is none.
   std::int64_t found(std::size_t target) const;
-  // How long the station that is farthest from it has to turn.
+  // How long the station that points farthest away from the target takes to turn to it.
   double farthest_turn_s(std::size_t target) const;
   // When the overview station first reported this target.
   std::optional<double> first_seen_s(std::size_t target) const;
@@ -61,9 +64,10 @@ class HandoverSite {
     AzimuthElevation axis;
     double speed_rad_s = 0.0;
     std::optional<fusion::Slew> slew{};
-    std::optional<std::size_t> follows{};             // the target of its tracker
-    std::map<std::size_t, double> in_view_s{};        // since when, by target
-    std::map<std::size_t, std::int64_t> track_ids{};  // of reported ones
+    std::optional<std::size_t> follows{};       // the target that its tracker follows
+    std::map<std::size_t, double> in_view_s{};  // by target: since when it has been in view
+    // By target: its track_id, if the detector reports it.
+    std::map<std::size_t, std::int64_t> track_ids{};
   };
   struct Sent {
     double at_s = 0.0;

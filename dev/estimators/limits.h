@@ -1,4 +1,4 @@
-// Compares measures with the values that they must reach. Prints each, and counts those that miss.
+// Compares results with their limits. Prints each result, and counts those outside of their limits.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// A recording of any length, for measures of time and memory.
+// Writes a recording of any length, for measuring computing time and memory.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,13 @@ namespace ols::bench {
 
 struct LongRecording {
   std::size_t rows = 1'000'000;
-  int stations = 4;       // on a circle of 300 m, 25 exposures a second each, evenly staggered
+  // On a circle with a radius of 300 m; each has 25 exposures a second, evenly staggered.
+  int stations = 4;
   int targets = 1;        // number of targets that each station sees in each exposure
-  bool are_named = true;  // in a column `target`
+  bool are_named = true;  // the file has the column `target`
 };
 
-// Writes stations.csv and bearings.csv to a folder that exists; throws std::system_error.
+// Writes stations.csv and bearings.csv to a folder, which must exist. Throws std::system_error.
 void write_long_recording(const std::string& folder, const LongRecording& recording);
 
 }  // namespace ols::bench

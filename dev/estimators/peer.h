@@ -1,5 +1,5 @@
-// Exports simulated bearings for another program's filter, with the results of ours. Writes
-// into a folder, all in the axes of the site's middle (metres, radians):
+// Exports simulated bearings for another program's filter, with the results of our filter. All
+// values are in metres and radians, in east, north, up at the site's middle. The files:
 //   stations.csv  station,east_m,north_m,up_m
 //   bearings.csv  run,time_s,station,azimuth_rad,elevation_rad   in order of time in each run
 //   fixes.csv     run,time_s,true_{east,north,up}_m,{east,north,up}_m   after each bearing; empty

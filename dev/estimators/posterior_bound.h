@@ -1,6 +1,6 @@
-// The posterior Cramer-Rao bound of a target that cruises, seen by stations with constant biases of
-// known size (Tichavsky, Muravchik, Nehorai 1998): for linear motion it is the recursion of the
-// information filter along the true path.
+// The posterior Cramer-Rao bound of a cruising target, seen by stations whose biases have a known
+// variance (Tichavsky, Muravchik, Nehorai 1998). For linear motion, this bound is the recursion of
+// the information filter along the true path.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace ols::bench {
 
-// Mean squared position error [m^2] that no estimator can beat, after the bearings of each frame,
-// at the times of the bearings.
+// The smallest possible mean squared position error [m^2] of any estimator, at the time of each
+// bearing and with all bearings up to then.
 std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
                                     const std::vector<fusion::BearingMeasurement>& bearings,
                                     double disturbance, double position_sd_m,

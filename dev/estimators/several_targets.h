@@ -1,5 +1,5 @@
-// The scenario of several targets: crossings, misses, false bearings. Measures how well the fusion
-// keeps the targets apart.
+// A scenario of several targets, with crossings, misses and false bearings: measures how well the
+// fusion keeps the targets apart.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ struct SeveralTargets {
   double duration_s = 40.0;
   double missed = 0.1;
   double false_per_frame = 1.0;
-  bool tracklets = false;  // whether bearings are tracklets of detectors, in 15 images a second of
-                           // staring cameras
+  bool tracklets = false;  // true: the bearings belong to tracklets of detectors in fixed cameras
+                           // with 15 images a second
 };
 
 struct IdentityScore {
-  double by_right_identity = 0.0;  // share of the targets' time in which the right track has them
-  double longest_ghost_s = 0.0;    // longest life of a confirmed track far from every target
-  int switches = 0;                // how often a target's track has got another id
+  double by_right_identity = 0.0;  // share of the targets' time with a track of the right identity
+  double longest_ghost_s = 0.0;    // longest time that a confirmed track was far from every target
+  int switches = 0;                // how often a target's track got another id
   double rms_m = 0.0;
-  double found = 0.0;                   // share of the targets' time in which any track has them
-  int ghosts = 0;                       // identities that were never near a target
-  double predicted_ghosts_a_day = 0.0;  // by the fusion's own model, at the end
+  double found = 0.0;                   // share of the targets' time with any track
+  int ghosts = 0;                       // number of identities that were never near a target
+  double predicted_ghosts_a_day = 0.0;  // predicted by the fusion's own model, at the end
 };
 
 IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed);

@@ -1,4 +1,4 @@
-// What the fuzzers share.
+// Functions and classes that the fuzzers share.
 #pragma once
 
 #include <fcntl.h>
@@ -14,7 +14,8 @@
 
 namespace ols::fuzz {
 
-// A property that every input must keep; unlike assert() it is never compiled out.
+// Aborts if a property, which must hold for every input, does not. Unlike assert(), it is never
+// compiled out.
 inline void require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "property does not hold: %s\n", what);
@@ -25,7 +26,7 @@ inline std::string_view text(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// Takes values from the front of the input; zeros at its end.
+// Takes values from the front of the input; after the end, bytes are zero.
 class Input {
  public:
   Input(const std::uint8_t* data, std::size_t size) : rest_(text(data, size)) {}
@@ -45,7 +46,7 @@ class Input {
   std::string_view rest_;
 };
 
-// A file in memory that can be opened by its path: for readers that take one.
+// A file in memory that can be opened by its path, for readers that take a path.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view content) : descriptor_(memfd_create("fuzz", MFD_CLOEXEC)) {

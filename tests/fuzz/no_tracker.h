@@ -1,4 +1,5 @@
-// A tracker that takes every box and sees nothing: for fuzzers of what commands do to a station.
+// A tracker that accepts every box and never finds a target, for fuzzers that send commands to a
+// station.
 #pragma once
 
 #include <optional>

@@ -1,11 +1,11 @@
-// What an exception says, for tests of what is refused.
+// The text of an exception, for tests of what is refused.
 #pragma once
 
 #include <string>
 
 namespace ols {
 
-// `otherwise` where the action throws nothing; other exceptions go on.
+// Returns `otherwise` if the action throws nothing. Passes on exceptions of other types.
 template <class Exception, class Action>
 std::string error_text(Action action, std::string otherwise = "") {
   try {

@@ -1,4 +1,5 @@
-// Looks again and again until it is so; false after a generous time.
+// Evaluates a condition repeatedly until it is true; returns false if it is not within a generous
+// time.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// A test with a folder of its own, empty at its beginning and removed at its end.
+// A test with its own folder, which is empty at the beginning of the test and removed at its end.
 #pragma once
 
 #include <gtest/gtest.h>

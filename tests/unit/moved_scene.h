@@ -1,11 +1,12 @@
-// A picture with edges everywhere, and the same one moved: what the tests of views compare.
+// A picture with edges everywhere, shifted by any amount: two of these are views that tests
+// compare.
 #pragma once
 
 #include <opencv2/imgproc.hpp>
 
 namespace ols {
 
-// `seed`: another one is another place.
+// Different seeds give pictures of different places.
 inline cv::Mat moved_scene(int seed, double right_px, double down_px = 0.0) {
   cv::Mat small(60, 80, CV_8U), big, moved;
   cv::RNG random(static_cast<std::uint64_t>(seed) + 5);

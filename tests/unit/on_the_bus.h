@@ -1,4 +1,4 @@
-// Messages as the bus brings them.
+// Makes messages in the form in which the bus delivers them.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A folder of one test's own, removed at its end.
+// A folder for one test, which is removed at its end.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ class TemporaryFolder {
   std::string path() const { return path_.string(); }
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
 
-  // A file of so many bytes, the younger the greater `age_order`.
+  // Writes a file of `bytes` bytes. A greater `age_order` gives a younger file.
   void put(const std::string& name, std::size_t bytes, int age_order) const {
     std::ofstream(path_ / name) << std::string(bytes, 'x');
     std::filesystem::last_write_time(path_ / name, std::filesystem::file_time_type::clock::now() +

@@ -1,4 +1,4 @@
-// Messages as they are on the bus, for the tests of the bridge.
+// Messages in the form in which they are on the bus, for the tests of the bridge.
 #pragma once
 
 #include <cstdint>

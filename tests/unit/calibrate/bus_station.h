@@ -1,4 +1,5 @@
-// A station on a bus within the process: says its state, and notes the commands that reach it.
+// A station on a bus within the process: publishes its state and stores the commands that it
+// receives.
 #pragma once
 
 #include <functional>
@@ -62,15 +63,15 @@ class BusStation {
   LcmBus bus{"memq://"};
   std::vector<std::int8_t> commands;
   std::function<void()> on_command;
-  double pan_rad = 0.0;  // that it says
-  std::string refusal;   // of all commands; empty: none
+  double pan_rad = 0.0;  // in the status
+  std::string refusal;   // reason with which it refuses all commands; empty: accepts them
 
  private:
   std::int64_t sequence_ = 0;
 };
 
-// One whose unit is where it is sent at once, and whose camera answers. It says its state whenever
-// the procedure says its own.
+// A station whose unit arrives immediately where it is sent, and whose camera answers requests. It
+// publishes its state whenever the procedure publishes its own.
 class MovingStation : public BusStation {
  public:
   MovingStation() {
@@ -95,7 +96,7 @@ class MovingStation : public BusStation {
 
   std::int8_t state = ols_msg::station_status_t::STATE_MANUAL;
   std::function<void()> on_request;
-  std::vector<std::pair<double, double>> ways;  // of the unit, each pan and tilt [rad]
+  std::vector<std::pair<double, double>> ways;  // the unit's motions, each in pan and tilt [rad]
   bool knows_sides = true;
   int pictures = 0;
 

@@ -33,7 +33,7 @@ inline constexpr std::int64_t kEvening_us = 1'700'000'000'000'000;
 class SimulatedTripod {
  public:
   using State = ols_msg::procedure_t;
-  // What it answers to a question; nothing: not yet.
+  // The person's answer to a question; nullopt: no answer yet.
   using Reply = std::function<std::optional<Answer>(const State&)>;
 
   static sim::Scenario scenario() {
@@ -52,7 +52,7 @@ class SimulatedTripod {
       set("[calibration]", "[calibration]\nfolder = \"" + (store() / "current").string() + "\"");
     station::StationSettings settings = station::load_station_settings(config());
     settings.video.address.clear();
-    settings.host.silence_s = 1e9;  // it reads this host, in this host's time
+    settings.host.silence_s = 1e9;  // the monitor reads this host, in this host's time
     spdlog::set_level(spdlog::level::off);
     station.emplace(world, 0, settings, time);
     bus_.subscribe(station_channel(kProcedureChannel, "alfa"),
@@ -69,7 +69,8 @@ class SimulatedTripod {
   std::string config() const { return folder / "configs/alfa.toml"; }
   std::filesystem::path store() const { return folder / "calibrations"; }
 
-  // The exit status; what was said is in `said`. What is thrown is said, too: 2.
+  // Runs a procedure; returns its exit status, or 2 if it throws. `said` then has its output and
+  // the text of the exception.
   int run(ProcedureOptions options, Reply reply) {
     options.station = config();
     options.state_folder = store();
@@ -89,7 +90,7 @@ class SimulatedTripod {
     return result;
   }
 
-  // Aborted at this step.
+  // Runs a procedure and aborts it at this step.
   int run_until_step(const std::string& step, ProcedureOptions options) {
     aborts_at_ = step;
     const int result = run(std::move(options), [](const State&) { return std::nullopt; });
@@ -97,7 +98,8 @@ class SimulatedTripod {
     return result;
   }
 
-  // Signs as a surveyor has measured them.
+  // Writes a file with the positions of the first `signs` signs, as from a surveyor; returns the
+  // path.
   std::string references(std::size_t signs) const {
     const std::string path = folder / "references.csv";
     std::ofstream file(path);
@@ -112,7 +114,7 @@ class SimulatedTripod {
     return path;
   }
 
-  // Points at the whitest spot, then confirms the crosshair; takes what is found.
+  // Points at the whitest spot, then confirms the crosshair; accepts the result.
   static std::optional<Answer> point_and_accept(const State& asked) {
     if (is_choice(asked, "accept")) return Answer{.choice = "accept"};
     const cv::Mat picture = cv::imdecode(asked.jpeg, cv::IMREAD_GRAYSCALE);
@@ -144,13 +146,14 @@ class SimulatedTripod {
       return std::abs(one.utime_us - utime_us);
     });
   }
-  // East, north, up, of the middle of the picture: by the simulator.
+  // The true direction of the picture's middle (east, north, up), from the simulator.
   Eigen::Vector3d looked_enu(const sim::ExposureTruth& exposure) const {
     const sim::StationTruth& truth = world.stations()[0];
     const auto camera = sim::camera_on(truth.truth.chain, truth.unit.trunnion_rad, exposure.mid);
     return camera.linear() * *unproject(truth.truth.camera, middle());
   }
-  // How far beside that is where the calibration in use believes to look, at this place [arcsec].
+  // The error [arcsec] of the direction that the calibration in use gives for the picture's middle,
+  // at these angles.
   double off_arcsec(const PanTilt& at) {
     LcmBus bus("memq://tripod");
     StationLink link(bus, "alfa");
@@ -188,7 +191,7 @@ class SimulatedTripod {
   std::string said;
 
  private:
-  // In the configuration.
+  // Replaces a text in the configuration.
   void set(const std::string& old, const std::string& now) const {
     std::ifstream file(config());
     std::string text(std::istreambuf_iterator<char>(file), {});
@@ -229,7 +232,7 @@ class SimulatedTripod {
   LcmBus bus_;
   Reply reply_;
   std::string aborts_at_;
-  double deadline_s_ = 60.0;  // of the start; then of each procedure
+  double deadline_s_ = 60.0;  // of the station's start, then of each procedure
   std::int64_t answered_ = 0, sequence_ = 0;
 };
 

@@ -20,7 +20,8 @@ inline StationModel hill() {
   return model;
 }
 
-// With the deviations of a new unit, level to half a degree, surveyed to 2 cm.
+// The prior of a station with the standard deviations of a new unit, levelled to half a degree and
+// surveyed to 2 cm.
 inline StationPrior prior_of(const StationModel& model) {
   StationPrior prior;
   prior.model = model;
@@ -34,7 +35,8 @@ inline StationPrior prior_of(const StationModel& model) {
   return prior;
 }
 
-// The counts that look there, and the place of what the pixel shows at that distance.
+// A sighting of a landmark with the unit at these angles, rounded to whole counts. place_seen():
+// the position of what the pixel of a sighting shows at this distance.
 inline Observation landmark(double pan_deg, double tilt_deg, const std::string& name) {
   Observation one;
   one.kind = Kind::kLandmark;
@@ -50,14 +52,14 @@ inline FixedPoint place_seen(const StationModel& truth, const Observation& one, 
                              double k = 0.13) {
   const PanTilt angles = corrected_angles(truth, one.reading);
   const auto line = sight(truth.geometry, {.pixel = one.pixel, .angles = angles});
-  // The straight line lies below what the air lifts up.
+  // Refraction lifts the image: the true direction is lower.
   const AzimuthElevation straight{line->direction.azimuth_rad,
                                   line->direction.elevation_rad - k * distance_m / 2.0 / 6371e3};
   const Eigen::Vector3d enu = distance_m * enu_from_azimuth_elevation(straight);
   return {line->origin_ecef + R_ecef_enu(line->origin_ecef) * enu, 0.02};
 }
 
-// `count` landmarks around, each sighted from both sides of its approach.
+// An adjustment with `count` landmarks all around, each sighted twice.
 inline Problem landmarks_around(const StationModel& truth, const StationModel& rough, int count) {
   Problem problem;
   problem.names = {"alfa"};
@@ -74,8 +76,8 @@ inline Problem landmarks_around(const StationModel& truth, const StationModel& r
   return problem;
 }
 
-// Points at infinity all around, each seen in both halves of the picture and from both sides, by a
-// unit whose angles are good.
+// An adjustment with points at infinity all around. Each is seen in both halves of the picture and
+// with both directions of approach, by a unit with precise angles.
 inline Problem scenery_around(const StationModel& truth, int count) {
   Problem problem;
   problem.names = {"alfa"};
@@ -100,7 +102,7 @@ inline Problem scenery_around(const StationModel& truth, int count) {
   return problem;
 }
 
-// The configuration of a tripod that was just put up: its heading is anybody's guess.
+// The configuration of a tripod that was just put up: its heading is unknown.
 inline StationModel just_put_up() {
   StationModel rough = hill();
   rough.geometry.chain.heading_rad = radians(220.0);

@@ -1,4 +1,4 @@
-// Frames of the night sky as a station with the errors of a new unit takes them.
+// Frames of the night sky, taken by a station with the errors of a new unit.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,10 @@ inline constexpr std::int64_t kNight_us = 1'780'000'000'000'000;  // 2026-05-28,
 
 struct NightSky {
   StationModel truth;
-  StationPrior station;  // as it is taken to be: another heading, none of the errors
+  StationPrior station;  // the prior: another heading, and no errors
   std::vector<StarFrame> frames;
-  std::vector<std::vector<std::int32_t>> stars;  // their numbers; 0: a false detection
+  // HIP number of each detection; 0: a false detection.
+  std::vector<std::vector<std::int32_t>> stars;
 };
 
 struct NightOptions {
@@ -27,7 +28,7 @@ struct NightOptions {
   double tilt_sd_rad = 0.5 * kPi / 180.0;
 };
 
-// A unit as drawn from the priors of a station.
+// A unit drawn at random from the prior of a station.
 inline StationModel drawn(std::mt19937_64& random, const StationPrior& prior) {
   std::normal_distribution<double> normal;
   ModelParameters by = ModelParameters::Zero();
@@ -102,7 +103,7 @@ inline NightSky night_sky(std::uint64_t seed, const NightOptions& options = {}) 
   return sky;
 }
 
-// Its detections, none of which is false, as sightings of stars with names.
+// The detections as sightings of stars with names; none of them may be false.
 inline Problem named_stars(const NightSky& sky) {
   Problem problem;
   problem.names = {"alfa"};
@@ -127,7 +128,7 @@ inline StarConditions conditions_of(const NightSky& sky) {
   return {.air = standard_air(sky.station.model.geometry.position.height_m), .earth = {}};
 }
 
-// How many detections were given a star that they do not show.
+// The number of detections that were identified as a wrong star.
 inline int wrong_names(const NightSky& sky, const StarIdentification& found) {
   int wrong = 0;
   for (const IdentifiedStar& one : found.stars) {

@@ -1,5 +1,6 @@
-// Pictures of the paper's rectification targets, drawn from boards in space: by rays through a
-// lens with distortion, with blur, noise, uneven light, and something in front of them.
+// Pictures of the paper's rectification targets, drawn from boards in space by tracing rays through
+// a lens with distortion. The pictures have blur, noise and uneven light, and parts of the boards
+// may be hidden.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,7 +15,8 @@
 
 namespace ols::calibration::test {
 
-// A flat thing in space: what it shows at (x to the right, y up) [m]; nothing: one looks past it.
+// A flat board in space. `gray`: its gray level at (x to the right, y up) [m]; nullopt: outside of
+// the board.
 struct Board {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d right = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitZ();
@@ -24,14 +26,14 @@ struct Board {
 struct Conditions {
   double blur_px = 0.8;
   double noise_gray = 2.0;
-  double uneven = 0.3;  // of the light, from one corner to the opposite one
+  double uneven = 0.3;  // difference of the light between opposite corners
   std::vector<cv::Rect> hidden = {};
   unsigned seed = 1;
 };
 
 inline constexpr double kWhite = 210.0, kBlack = 40.0, kBehind = 120.0;
 
-// Parallel lines of this thickness, so far apart.
+// Parallel lines of this thickness and distance.
 inline auto lines_on(double width_m, double height_m, double apart_m, double thick_m) {
   return [=](double x, double y) -> std::optional<double> {
     if (std::abs(x) > 0.5 * width_m || std::abs(y) > 0.5 * height_m) return std::nullopt;
@@ -40,7 +42,8 @@ inline auto lines_on(double width_m, double height_m, double apart_m, double thi
   };
 }
 
-// The right cross in the middle of the board, the left one beside it, a line above and below.
+// The right cross is in the middle of the board, the left cross beside it; a line is above them and
+// one below.
 inline auto crosses_on(double apart_m, double arm_m, double thick_m) {
   return [=](double x, double y) -> std::optional<double> {
     if (std::abs(x + 0.5 * apart_m) > 0.5 * apart_m + 3.0 * arm_m || std::abs(y) > 4.0 * arm_m) {
@@ -55,7 +58,7 @@ inline auto crosses_on(double apart_m, double arm_m, double thick_m) {
   };
 }
 
-// Bars, the zero in the middle; `bars` of them to both sides.
+// A ruler with its zero in the middle, and `bars` bars above and below.
 inline auto ruler_on(double bar_m, double width_m, int bars) {
   return [=](double x, double y) -> std::optional<double> {
     const double h = std::abs(y) / bar_m;
@@ -67,7 +70,7 @@ inline auto ruler_on(double bar_m, double width_m, int bars) {
 
 namespace detail {
 
-// Board coordinates of the pixels of a coarse grid, exact through the lens; between them linear.
+// The board coordinates of pixels: exact at the nodes of a coarse grid, interpolated between them.
 class OnBoard {
  public:
   OnBoard(const CameraIntrinsics& camera, const Eigen::Isometry3d& enu_cam, const Board& board)
@@ -104,7 +107,7 @@ class OnBoard {
 
 }  // namespace detail
 
-// The first board that shows something at a pixel hides those after it.
+// Draws the picture. At each pixel, the first board there hides the boards after it.
 inline cv::Mat picture_of(const CameraIntrinsics& camera, const Eigen::Isometry3d& enu_cam,
                           const std::vector<Board>& boards, const Conditions& conditions = {}) {
   constexpr int kFine = 3;
@@ -141,7 +144,7 @@ inline cv::Mat picture_of(const CameraIntrinsics& camera, const Eigen::Isometry3
   return result;
 }
 
-// A camera of the usual lens with pictures of half the size, that looks north, rolled and turned.
+// A camera with the usual lens and pictures of half the size.
 inline CameraIntrinsics half_size_camera() {
   CameraIntrinsics camera;
   camera.width_px = 640;
@@ -152,7 +155,8 @@ inline CameraIntrinsics half_size_camera() {
   camera.k1 = -0.25;
   return camera;
 }
-// Rolled clockwise as seen from behind, turned to the right, tilted up.
+// The pose of a camera that looks north, after it was rolled (clockwise as seen from behind),
+// turned to the right and tilted up.
 inline Eigen::Isometry3d looking_north(double roll_rad = 0.0, double right_rad = 0.0,
                                        double up_rad = 0.0) {
   using Eigen::AngleAxisd, Eigen::Vector3d;

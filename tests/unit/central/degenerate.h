@@ -1,4 +1,4 @@
-// Stations and targets in every degenerate geometry, from 1e-9 m to 1e6 m.
+// Stations and targets in all degenerate geometries, with sizes and offsets that the test chooses.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,10 +17,11 @@ struct DegenerateScene {
   std::string name;
   std::vector<Eigen::Vector3d> places_enu;  // [m]
   Eigen::Vector3d target_enu;               // [m]
-  bool away = false;                        // the stations look the other way
+  bool away = false;                        // the stations point in the opposite direction
 };
 
-// Each kind with every combination of a size of the site and a small offset from the exact case.
+// All kinds of geometry, each with every combination of a size of the site and an offset from the
+// exactly degenerate case.
 inline std::vector<DegenerateScene> degenerate_scenes(const std::vector<double>& sizes_m,
                                                       const std::vector<double>& offsets_m) {
   using Eigen::Vector3d;
@@ -56,7 +57,8 @@ inline std::vector<DegenerateScene> degenerate_scenes(const std::vector<double>&
   return scenes;
 }
 
-// Its rays, and each turned by about a sigma if there is a random number generator.
+// The rays of a scene. If `random` is not null, each ray is turned by random angles with this
+// sigma.
 inline std::vector<Ray> rays_of(const DegenerateScene& scene, double sigma_rad,
                                 std::mt19937_64* random) {
   std::vector<Ray> rays;
@@ -81,7 +83,7 @@ inline bool is_positive_definite(const Eigen::Matrix3d& P) {
                                   .eigenvalues()(0) > 0.0;
 }
 
-// What is wrong with an estimate that claims a position; empty: nothing.
+// What is inconsistent in an estimate; empty: nothing.
 inline std::string false_claim(const Estimate& estimate) {
   if (estimate.solution != Solution::kOk) {
     return estimate.position_ecef.allFinite() ? "a position without a solution" : "";

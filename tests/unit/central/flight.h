@@ -17,7 +17,7 @@ inline Eigen::Vector3d path(double t_s) {
   return {-100.0 + 20.0 * t_s, 150.0 - 5.0 * t_s, 120.0 + 2.0 * t_s};
 }
 
-// Four stations at 15 frames per second, evenly staggered; in order of time.
+// Bearings of four stations with 15 frames per second, evenly staggered, in order of time.
 inline std::vector<BearingMeasurement> flight(double seconds, double sigma_rad = 1e-5,
                                               double noise = 0.0) {
   std::mt19937_64 random(7);
@@ -34,7 +34,7 @@ inline std::vector<BearingMeasurement> flight(double seconds, double sigma_rad =
   return measurements;
 }
 
-// Processes a bearing, and learns what it shows of the stations.
+// Updates the filter with a bearing, and the bias model with the evidence from it.
 inline BearingUse feed(TrackFilter& filter, const BearingMeasurement& measurement,
                        BiasModel& errors) {
   const FilterUpdate update = filter.update(measurement, errors);

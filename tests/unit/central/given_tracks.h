@@ -1,4 +1,5 @@
-// Tracks that a test begins, in the life cycle that all have in common; it sets the criteria.
+// A track manager for tests of the life cycle that all track managers share. The test begins the
+// tracks and sets the criteria.
 #pragma once
 
 #include <cmath>
@@ -18,14 +19,14 @@ class GivenTracks : public TrackManager {
       : TrackManager(config, config.filter, true) {}
 
   using TrackManager::add;
-  // Every bearing belongs to the first track; without any it begins none.
+  // Gives every bearing to the first track. Initiates no track.
   std::vector<Association> add(std::span<const BearingMeasurement> image, bool) override {
     std::vector<Association> all(image.size());
     for (std::size_t i = 0; i < image.size() && !tracks_.empty(); ++i)
       all[i] = give_to(tracks_.front(), image[i]);
     return all;
   }
-  // A tentative track of something that stands here.
+  // Begins a tentative track of an object at rest at this point.
   Track& begin_at(const Eigen::Vector3d& p_enu, std::int64_t utime_us = kStart) {
     Track track(TrackFilter(
         {}, utime_us,
@@ -38,7 +39,7 @@ class GivenTracks : public TrackManager {
   }
   // A bearing that no track explains.
   void keep_unassociated(const BearingMeasurement& measurement) { initiation_.store(measurement); }
-  // Gives it another filter.
+  // Replaces a track, and with it the filter.
   void exchange(std::size_t track, Track by) { replace(tracks_.at(track), std::move(by)); }
   using TrackManager::clear_tracks;
 
@@ -50,14 +51,15 @@ class GivenTracks : public TrackManager {
   bool is_lost(const Track&, double, std::int64_t) const override { return lost; }
 };
 
-// From the k-th station of the square, towards something that stands here.
+// A bearing from the k-th station of the square to an object at this point.
 inline BearingMeasurement sight_of(std::size_t k, const Eigen::Vector3d& p_enu,
                                    std::int64_t utime_us) {
   return measurement_of(
       ray_to(std::string(1, static_cast<char>('a' + k)), square()[k], p_enu, 1e-4), utime_us);
 }
 
-// Ten frames of the four stations make it a confirmed track of this place; at the end of them.
+// Begins a track at this point and confirms it with ten frames of the four stations. Returns the
+// time of the last frame.
 inline std::int64_t confirm_at(GivenTracks& tracks, const Eigen::Vector3d& p_enu,
                                std::int64_t start_us = kStart) {
   tracks.begin_at(p_enu, start_us);

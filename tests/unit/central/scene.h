@@ -35,7 +35,7 @@ inline Ray ray_to(const std::string& station, const Eigen::Vector3d& from_enu,
   return ray;
 }
 
-// The ray turned by small angles in cross-elevation and elevation.
+// The ray, turned by small angles in cross-elevation and elevation.
 inline Ray turned(Ray ray, double cross_elevation_rad, double elevation_rad) {
   ray.sight.direction.elevation_rad += elevation_rad;
   ray.sight.direction.azimuth_rad =

@@ -1,4 +1,4 @@
-// The bearings of stations of which one points away from the target.
+// The bearings of several stations, one of which has a wrong heading.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,18 @@
 
 namespace ols::fusion::test {
 
-// The error of a station's azimuth, by its name and the time [rad].
+// The error [rad] of a station's azimuth, as a function of the station's name and the time.
 using HeadingError = std::function<double(char station, double t_s)>;
 
 inline HeadingError off_by(char station, double degrees_off) {
   return [=](char name, double) { return name == station ? radians(degrees_off) : 0.0; };
 }
 
-inline constexpr double kSlowly = 0.5;  // over the speed of path()
+inline constexpr double kSlowly = 0.5;  // factor of the speed of path() in flight.h
 
-// The stations (letters of the square's corners) in this order of exposures, each 15 times per
-// second; the path of flight.h at half its speed. In order of time.
+// The bearings of a target on the path of flight.h, at kSlowly times its speed, in order of time.
+// `stations`: the letters of the square's corners, in the order of the exposures; each station has
+// 15 per second.
 inline std::vector<BearingMeasurement> watch(const std::string& stations, double seconds,
                                              double noise_rad, const HeadingError& heading,
                                              double stated_rad = 0.0) {

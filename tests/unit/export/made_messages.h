@@ -1,4 +1,4 @@
-// Messages of the bus as the tests need them.
+// Bus messages for the tests of the exports.
 #pragma once
 
 #include <algorithm>

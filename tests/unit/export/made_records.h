@@ -1,5 +1,5 @@
-// Records as the tests need them: a target 100 m above the ellipsoid where the geoid is 46 m above
-// it.
+// Records for the tests of the exports. The target is 100 m above the ellipsoid; the geoid there is
+// 46 m above the ellipsoid.
 #pragma once
 
 #include "export/records.h"

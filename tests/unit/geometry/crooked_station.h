@@ -1,4 +1,4 @@
-// Random stations that are crooked in every way.
+// Random stations with errors in every parameter.
 #pragma once
 
 #include <random>
@@ -37,7 +37,7 @@ inline UnitReading some_reading(std::mt19937& random) {
   return {{pan(random), 4000.0, -1}, {tilt(random), -900.0, 1}};
 }
 
-// A target seen at the pixel, with this inverse distance.
+// A target that is seen at this pixel. `w`: its inverse distance.
 inline HomogeneousPoint seen_at(const StationModel& model, const UnitReading& reading,
                                 const Eigen::Vector2d& pixel, double w) {
   const Eigen::Isometry3d camera =

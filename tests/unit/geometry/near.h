@@ -1,4 +1,5 @@
-// Matrices that are equal within a tolerance per element, and where they are not.
+// Asserts that two matrices are equal within a tolerance per element, and prints them if they are
+// not.
 #pragma once
 
 #include <gtest/gtest.h>

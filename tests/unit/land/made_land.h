@@ -1,4 +1,5 @@
-// Lands whose heights are a formula, and what is seen of them by exact geometry.
+// Lands whose heights are given by a formula, and the directions in which their points are seen, by
+// exact geometry.
 #pragma once
 
 #include <cmath>
@@ -45,11 +46,11 @@ inline Seen see(const LocalFrame& camera, const Geodetic& place, double refracti
   return {azimuth_elevation_from_enu(lifted), enu.norm(), distance_m};
 }
 
-// At a bearing and horizontal distance from a camera, `height_m` above the ellipsoid.
+// The place at this azimuth and horizontal distance from a camera, `height_m` above the ellipsoid.
 inline Geodetic place_at(const LocalFrame& camera, double azimuth_rad, double distance_m,
                          double height_m) {
   Geodetic place = camera.origin();
-  for (int i = 0; i < 4; ++i) {  // to the exact distance and azimuth at that height
+  for (int i = 0; i < 4; ++i) {  // converges to the exact distance and azimuth at that height
     place.height_m = height_m;
     const Eigen::Vector3d enu = camera.to_enu(ecef_from_geodetic(place));
     const Eigen::Vector3d wanted(std::sin(azimuth_rad) * distance_m,

@@ -1,4 +1,4 @@
-// Answers that a station and a centre can be made of.
+// Complete answers for ols-setup, for a station and for a centre.
 #pragma once
 
 #include <string>

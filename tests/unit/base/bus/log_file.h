@@ -1,4 +1,4 @@
-// Logs as lcm-logger writes them, byte by byte.
+// Makes logs in the format of lcm-logger, byte by byte.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ std::string payload_of(const Message& message) {
   return bytes;
 }
 
-// Of the station alfa: its status with these counts of stops, and an alarm.
+// A status of the station alfa, with this count of stops and, if not empty, an alarm.
 inline std::string logged_status(std::int64_t utime_us, double stops = 0.0,
                                  const std::string& alarm = "") {
   ols_msg::station_status_t status{};
@@ -65,7 +65,7 @@ inline std::string logged_stop(std::int64_t utime_us) {
   return log_record(utime_us, "OLS_PTU_alfa", payload_of(command));
 }
 
-// Its station's answer to it.
+// The station's answer to the stop.
 inline std::string logged_reply(std::int64_t utime_us) {
   ols_msg::command_reply_t reply{};
   reply.schema_version = ols_msg::command_reply_t::SCHEMA_VERSION;
@@ -75,7 +75,7 @@ inline std::string logged_reply(std::int64_t utime_us) {
   return log_record(utime_us, "OLS_REPLY_alfa", payload_of(reply));
 }
 
-// A column of its skyline that disagrees with the land.
+// A skyline of the station with one column, which disagrees with the model of the land.
 inline std::string logged_skyline(std::int64_t utime_us, std::int16_t column) {
   ols_msg::skyline_t skyline{};
   skyline.schema_version = ols_msg::skyline_t::SCHEMA_VERSION;
@@ -103,7 +103,7 @@ inline std::string logged_target(std::int64_t utime_us, double latitude_deg,
   return log_record(utime_us, channel, payload_of(target));
 }
 
-// A file that is there as long as this object.
+// A file that exists as long as this object.
 class LogFile {
  public:
   explicit LogFile(const std::string& bytes)

@@ -1,4 +1,5 @@
-// Reads one section of a configuration from text, for tests of what it takes and what it refuses.
+// Reads one section of a configuration from text, for tests of what the section accepts and
+// refuses.
 #pragma once
 
 #include <string>

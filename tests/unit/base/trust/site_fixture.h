@@ -1,4 +1,4 @@
-// A small site with throw-away keys, and messages of its members as bytes.
+// A small site with keys made for tests, and messages of its members as bytes.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,8 @@ inline void put(std::vector<std::uint8_t>& bytes, std::int64_t value, int size) 
   }
 }
 
-// The head of a message (message_head.h) and some content; without a station: kBootFirst.
+// The head of a message (message_head.h) and some content. With an empty `station`, the head has
+// the form kBootFirst.
 inline std::vector<std::uint8_t> payload(std::int64_t utime_us, std::int64_t boot_id,
                                          std::int64_t sequence, std::string_view station = "") {
   std::vector<std::uint8_t> bytes;

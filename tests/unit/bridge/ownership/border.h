@@ -1,5 +1,6 @@
-// Two regions with a standby each, a target that crosses their border, and a store of owners that
-// answers late, or not at all, or not one of them; for the tests of ownership.
+// For the tests of ownership: two regions, each with an active and a standby fusion, and a target
+// that crosses the border of the regions. A store keeps the owners; it may answer late or never, to
+// all nodes or to one of them.
 #pragma once
 
 #include <cmath>
@@ -15,10 +16,11 @@
 namespace ols::bridge {
 
 inline constexpr double kLatitude_deg = 49.5, kBorder_deg = 17.0;
-inline constexpr double kMetresPerDegree = 72'216.0;  // of longitude, there
+inline constexpr double kMetresPerDegree = 72'216.0;  // of longitude, at kLatitude_deg
 inline constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
 
-// As the key-value store of NATS: each write has the next revision, of all keys together.
+// Behaves like the key-value store of NATS: each write gets the next revision number, which counts
+// the writes of all keys.
 class Store {
  public:
   struct Kept {
@@ -39,7 +41,7 @@ class Store {
   std::map<std::string, Kept> records;
 };
 
-// A fusion with its bridge: sees the target with an error of its own, under ids of its own.
+// A fusion with its bridge. It sees the target with its own error and with its own ids.
 struct Node {
   Node(const std::string& node_name, const Cell& node_cell, std::uint64_t seed)
       : name(node_name), cell(node_cell), random(seed) {
@@ -60,14 +62,14 @@ struct Node {
   std::unique_ptr<Ownership> ownership;
   std::int64_t track_id = 0;
   bool is_alive = true;
-  bool is_deaf = false;  // it hears of no change in the store
-  bool is_cut = false;   // it does not reach the store at all
+  bool is_deaf = false;  // it is not notified of changes in the store
+  bool is_cut = false;   // it has no connection to the store
   int starts = 0;
   std::uint64_t heard_revision = 0;
-  double offset_s = 0.0;  // of its clocks
+  double offset_s = 0.0;  // of the node's monotonic clock
 };
 
-// What waits for its time: an answer, a word of the store.
+// A message that arrives later: an answer of the store, or its notification of a change.
 struct Later {
   double due_s = 0.0;
   Node* node = nullptr;
@@ -94,13 +96,13 @@ class Border {
     return {kStart_us + static_cast<std::int64_t>(now_s * 1e6), now_s + node.offset_s};
   }
 
-  // One turn of 10 ms.
+  // Advances the time by 10 ms.
   void turn(double east_m, double speed_m_s);
-  // Who publishes the target now without a mark.
+  // The nodes that now publish the target as confirmed owners.
   std::vector<Node*> owners(std::vector<Grant>* grants = nullptr);
-  // And with one.
+  // The nodes that now publish the target, confirmed or not.
   std::vector<Node*> publishers(std::vector<Grant>* grants = nullptr);
-  // A node that did not reach the store does, and its client reads what there is.
+  // Connects a node to the store again; the node's client then reads all records.
   static void mend(Node& node) {
     node.is_cut = false;
     node.heard_revision = 0;
@@ -154,7 +156,7 @@ inline void Border::send(Node& node, const StoreRequest& request) {
   }
 }
 
-// As the store's client does with a refusal.
+// After a refusal, the store's client reads the record again.
 inline void Border::look_again(Node& node, const StoreRequest& request) {
   if (const auto kept = store.records.find(request.target); kept != store.records.end()) {
     node.ownership->learn(request.target, kept->second.record, kept->second.revision, at(node));
@@ -194,7 +196,7 @@ inline void Border::turn(double east_m, double speed_m_s) {
   deliver();
   for (Node& node : nodes) {
     if (!node.is_alive) continue;
-    // A new process reads what there is.
+    // A new process reads all records.
     if (node.heard_revision == 0 && reaches_store(node)) {
       node.heard_revision = 1;
       for (const auto& [target, kept] : store.records) {
@@ -209,7 +211,7 @@ inline void Border::turn(double east_m, double speed_m_s) {
   if (turns_ % 6 == 0) publish(east_m, speed_m_s);
 }
 
-// What an owner publishes, all the others hear.
+// All other nodes receive what an owner publishes.
 inline void Border::publish(double east_m, double speed_m_s) {
   std::vector<Grant> grants;
   const auto who = publishers(&grants);

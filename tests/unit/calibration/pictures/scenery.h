@@ -1,5 +1,5 @@
-// Pictures of a hilly landscape for the tests of picture processing: relief and surfaces, lit from
-// any side, seen from any place to a fraction of a pixel.
+// Pictures of a hilly landscape for the tests of picture processing. Its relief and surfaces are
+// lit from any side, and views are shifted by any fraction of a pixel.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace ols::calibration {
 
 struct Light {
   double from_left = 1.0;   // -1: from the right
-  double contrast = 1.0;    // less: haze
+  double contrast = 1.0;    // less than 1: haze
   double brightness = 0.0;  // [gray]
 };
 
@@ -24,7 +24,7 @@ class Scenery {
     surface_ = sim::fractal_noise(size, 128, 4, 0.6, generator);
   }
 
-  // What is at p of the first view is at p + shift of this one.
+  // A point at p of the unshifted view is at p + shift of this view.
   cv::Mat view(const Eigen::Vector2d& shift, unsigned noise_seed, const Light& light = {},
                double noise_gray = 2.0, cv::Size size = {640, 480}) const {
     cv::Mat slope, lit, seen;

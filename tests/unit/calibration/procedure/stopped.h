@@ -1,4 +1,5 @@
-// A unit that has carried out an order: it stands at whole counts. The picture is still missing.
+// What a unit reports after carrying out an order: it is at rest at whole counts. The result has no
+// picture.
 #pragma once
 
 #include <cmath>

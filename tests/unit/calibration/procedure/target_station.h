@@ -1,5 +1,5 @@
-// A station before its rectification targets: a unit with true errors (sim/world/unit_truth.h), and
-// the pictures that its camera takes of boards that are not exactly where they should be.
+// A station in front of its rectification targets: a unit with errors (sim/world/unit_truth.h),
+// whose camera takes pictures of boards that are not exactly in their places.
 #pragma once
 
 #include <random>
@@ -22,7 +22,7 @@ class TargetStation {
     sim::UnitErrorsScenario scenario;
     scenario.size = size;
     unit_ = sim::draw_unit(scenario, seed, truth_chain_, truth_camera_);
-    // Another half of the lens's errors: the picture has half the size.
+    // Also halves the error of the principal point, because the picture has half the size.
     truth_camera_.cx_px = 319.5 + 0.5 * (truth_camera_.cx_px - 319.5);
     truth_camera_.cy_px = 239.5 + 0.5 * (truth_camera_.cy_px - 239.5);
     mechanics_ = std::make_unique<sim::UnitMechanics>(unit_, 2.0 * kPi / 112000.0);
@@ -39,14 +39,15 @@ class TargetStation {
   const Observation& level() const { return level_; }
   double normal(double sd) { return sd * std::normal_distribution<double>()(random_); }
 
-  // Ahead of the unit at zero pan, so far to the right and up from its axes.
+  // A point ahead of the unit at zero pan. `right_m`, `up_m`: from the intersection of the axes.
   Eigen::Vector3d ahead(double away_m, double right_m, double up_m) const {
     const double a = truth_chain_.heading_rad;
     const Eigen::Vector3d forward(std::sin(a), std::cos(a), 0.0);
     const Eigen::Vector3d right(forward.y(), -forward.x(), 0.0);
     return axes() + away_m * forward + right_m * right + up_m * Eigen::Vector3d::UnitZ();
   }
-  // A board there that faces the unit, turned and rolled by so much.
+  // A board at ahead(...) that faces the unit, then turned about the vertical and rolled by these
+  // angles.
   Board board(double away_m, double right_m, double up_m, double turned_rad, double rolled_rad) {
     Board board;
     board.middle = ahead(away_m, right_m, up_m);
@@ -58,13 +59,14 @@ class TargetStation {
     board.up = std::cos(rolled_rad) * up - std::sin(rolled_rad) * right;
     return board;
   }
-  // Lines, with the spread of a board that was put up with a good level.
+  // A board with level lines, turned about the vertical by 2 degrees (1-sigma).
   Board level_board(double rolled_rad) {
     Board one = board(30.0, 0.0, 0.05, normal(radians(2.0)), rolled_rad);
     one.gray = lines_on(4.0, 3.0, 0.5, 0.04);
     return one;
   }
-  // Square to the tilt axis as the unit stands at these angles, beside it by `off_m`.
+  // An upright board whose horizontal edges are parallel to the tilt axis with the unit at these
+  // angles. `off_m`: the error of its sideways position.
   Board cross_board(const CrossBoard& stated, double off_m, const PanTilt& counted) const {
     Board one;
     const Eigen::Isometry3d head = head_at(counted);
@@ -100,7 +102,7 @@ class TargetStation {
     return taken;
   }
 
-  // The three angles, from the truth alone, at these counts.
+  // The three rectification angles at these counts, computed from the truth alone.
   double roll(const PanTilt& counted, int side) const {
     const Eigen::Matrix3d R = camera(counted, side).linear();
     return std::atan2(-R(2, 0), -R(2, 1));
@@ -124,7 +126,7 @@ class TargetStation {
     return sim::camera_on(truth_chain_, unit_.trunnion_rad,
                           mechanics_->shafts_from(counted, side, side));
   }
-  // X ahead, Y along the tilt axis, of the head without its camera.
+  // The pose of the unit's head without its camera: X ahead, Y along the tilt axis.
   Eigen::Isometry3d head_at(const PanTilt& counted) const {
     ChainParameters bare = truth_chain_;
     bare.mount_z_rad = bare.mount_x_rad = bare.mount_y_rad = 0.0;

@@ -1,4 +1,4 @@
-// A simulated tripod for the tests of the stages: the pictures that its camera sees.
+// A simulated tripod for the tests of the stages: draws the pictures of its camera.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace ols::calibration {
 
 class Tripod {
  public:
-  // `heading_off_rad`: the stages believe a heading that is wrong by so much.
+  // `heading_off_rad`: the error of the heading that the stages get.
   explicit Tripod(double heading_off_rad = 0.0) {
     scenario_.unit_errors = {};
     scenario_.errors.heading.on = scenario_.errors.tilt.on = false;
@@ -47,7 +47,7 @@ class Tripod {
     taken.utime_us = 1'780'000'000'000'000 + pose_;
     return taken;
   }
-  // Where a sign is in a picture taken so.
+  // The pixel of a sign in a picture taken at these angles.
   Eigen::Vector2d place(const Landmark& sign, const PanTilt& angles) const {
     return view(truth(), angles, sign.ecef).value().pixel;
   }

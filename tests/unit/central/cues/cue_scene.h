@@ -20,7 +20,7 @@ inline Cue cue_at(double latitude_deg, double longitude_deg, double height_m) {
 }
 inline Cue good_cue() { return cue_at(49.2, 16.6, 400.0); }
 
-// One station, 300 m below the cue.
+// A registry with one station, which is 300 m below good_cue().
 inline StationRegistry one_station() {
   StationRegistry stations({}, 10);
   MessageTime time;

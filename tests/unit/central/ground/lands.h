@@ -1,4 +1,5 @@
-// Analytic lands: the height of the ground as a function of metres east and north of a place.
+// Analytic lands: the height of the ground is a function of the distances [m] east and north of a
+// place.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +15,7 @@ namespace ols::fusion {
 
 inline const Geodetic kPlace{0.84, 0.2, 0.0};
 
-// The curvature of the earth is left in: "flat" follows the ellipsoid.
+// Heights are above the ellipsoid: flat land follows the curvature of the Earth.
 class Land : public land::Surface {
  public:
   using Height = std::function<double(double east_m, double north_m)>;
@@ -30,7 +31,7 @@ class Land : public land::Surface {
   std::optional<land::SurfaceHeight> top(double latitude_rad, double longitude_rad) const override {
     return ground(latitude_rad, longitude_rad);
   }
-  // A place this high above the ellipsoid.
+  // The ECEF position at this height above the ellipsoid.
   Eigen::Vector3d at(double east_m, double north_m, double height_m) const {
     Geodetic place = geodetic_from_ecef(frame_.to_ecef({east_m, north_m, 0.0}));
     place.height_m = height_m;
@@ -47,7 +48,7 @@ class Land : public land::Surface {
 };
 
 inline double flat(double, double) { return 0.0; }
-// A wall of 50 m, 20 m thick, 500 m east.
+// A wall 500 m to the east, 50 m high and 20 m thick.
 inline double ridge(double east_m, double) { return std::abs(east_m - 500.0) < 10.0 ? 50.0 : 0.0; }
 
 inline Eigen::Matrix3d enu_covariance(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_m) {

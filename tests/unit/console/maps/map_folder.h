@@ -1,4 +1,4 @@
-// A folder of maps that is there as long as this object.
+// A folder of maps that exists as long as this object.
 #pragma once
 
 #include <sqlite3.h>
@@ -24,7 +24,8 @@ class MapFolder {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << bytes;
   }
-  // An MBTiles file with one tile, at zoom level 2, column 1, the second row from the north.
+  // Writes an MBTiles file with one tile, at zoom level 2, in column 1 and the second row from the
+  // north.
   void write_mbtiles(const std::string& name, const std::string& more = "",
                      const std::string& tile = kPng) const {
     sqlite3* database = nullptr;

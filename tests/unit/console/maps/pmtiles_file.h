@@ -1,4 +1,4 @@
-// PMTiles archives, byte by byte.
+// Makes PMTiles archives, byte by byte.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ inline std::string little_endian_bytes(std::uint64_t value, int bytes) {
   return text;
 }
 
-// Header, root directory, leaf directories, tiles; `compression` of the directories: 1 none, 2
-// gzip.
+// An archive of header, root directory, leaf directories and tiles. `compression` of the
+// directories: 1: none, 2: gzip.
 inline std::string pmtiles_archive(const std::string& root, const std::string& leaves,
                                    const std::string& tiles, int compression = 1,
                                    int tile_type = 2) {
@@ -54,7 +54,7 @@ inline std::string pmtiles_archive(const std::string& root, const std::string& l
   header += std::string(24, '\0');  // counts
   header += '\x01';                 // clustered
   header += static_cast<char>(compression);
-  header += '\x01';  // of the tiles: none
+  header += '\x01';  // compression of the tiles: none
   header += static_cast<char>(tile_type);
   header += std::string("\x02\x05", 2);  // zoom levels
   for (const int degrees : {16, 49, 17, 50}) {

@@ -1,4 +1,4 @@
-// The folder of a calibration, as `ols-calibrate adjust` leaves it.
+// Makes the folder of a calibration, as `ols-calibrate adjust` does.
 #pragma once
 
 #include <unistd.h>
@@ -30,7 +30,7 @@ inline StationSettings settings() {
   return settings;
 }
 
-// A diagonal; each variance a multiple of `scale` by its place.
+// A diagonal covariance as CSV; the i-th variance is i times `scale`, from 1.
 inline std::string covariance_text(double scale) {
   std::ostringstream out;
   out << "parameter";

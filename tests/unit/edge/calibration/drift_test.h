@@ -1,4 +1,4 @@
-// Reference views of a station whose tripod, unit or scenery is moved by the test.
+// Reference views of a station after a test has moved its tripod, unit or scenery.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,8 +15,8 @@ inline constexpr double kStep = 46.2857 * kArcsec;  // 0.9 deg / 70
 inline constexpr MotorSteps kSteps{kStep, kStep};
 inline constexpr double kSd = 6.0 * kArcsec;
 
-// Four views 90 degrees apart, some degrees up, seen with noise by a station turned by the rotation
-// vector `turned` in ORIGIN: the turn itself is applied, not its linearisation.
+// The offsets of four views, 90 degrees apart and some degrees above the horizon, with noise. The
+// station is turned by the rotation vector `turned` in ORIGIN, without linearisation.
 inline std::vector<ViewOffset> views(const Eigen::Vector3d& turned, std::mt19937& random,
                                      double noise = 1.0) {
   std::normal_distribution<double> normal;

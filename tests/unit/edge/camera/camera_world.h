@@ -1,4 +1,4 @@
-// A camera's clock as a network shows it, for tests of the time base.
+// A simulated clock of a camera, for tests of the time base.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace ols::camera {
 
-// A camera's clock that is off by a constant and a rate, read over a network that takes its time.
+// A camera's clock with a constant offset and a wrong rate, read over a network with random delays.
 struct CameraWorld {
   double start_s = 5000.0;  // monotonic
   std::int64_t start_ns = 1'700'000'000'000'000'000;
@@ -19,7 +19,7 @@ struct CameraWorld {
   std::int64_t device_ns(double time_s) const {
     return start_ns + std::llround(1e9 * (time_s - start_s) / (1.0 + rate_error));
   }
-  // The way there and back take 50 us and an exponential time more, each.
+  // Reads the clock. Each direction takes 50 us and an exponentially distributed extra time.
   LatchSample latch(double time_s, double mean_extra_s = 100e-6) {
     std::exponential_distribution<double> extra(1.0 / mean_extra_s);
     const double there_s = 50e-6 + extra(random), back_s = 50e-6 + extra(random);

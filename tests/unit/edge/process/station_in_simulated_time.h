@@ -1,4 +1,4 @@
-// A station's whole process in simulated time, and who commands it over the bus.
+// A station's whole process in simulated time, and an operator who commands it over the bus.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using Command = ols_msg::ptu_command_t;
 inline constexpr const char* kBus = "memq://station";
 inline constexpr double kHoming_s = 120.0, kPatience_s = 20.0;
 
-// A counter of a station's or a fusion's status; 0: it has none of this name.
+// A counter in the status of a station or a fusion; 0: the status has no counter of this name.
 double counter_of(const auto& status, const std::string& name) {
   const auto found = std::ranges::find(status.counter_name, name);
   const auto at = static_cast<std::size_t>(found - status.counter_name.begin());
@@ -38,8 +38,8 @@ bool alarms_of(const auto& status, const std::string& words) {
   });
 }
 
-// A site whose stations look by themselves: a drone passes its middle twice in a period, 75 m above
-// it.
+// A site whose stations have detectors. A drone passes 75 m above the site's middle twice in each
+// period.
 inline sim::Scenario passing_drone(double period_s, const Eigen::Vector3d& amplitude_enu_m) {
   sim::Scenario s = sim::load_scenario(std::string(OLS_SCENARIOS) + "/faults.toml");
   s.detector_on = true;
@@ -75,7 +75,7 @@ class StationInSimulatedTime : public testing::Test {
     EXPECT_TRUE(is_trusted());
   }
 
-  // Where the drone passes.
+  // Points a station to where the drone passes.
   bool look_at_middle(std::size_t station) {
     const auto& tripod = world_.stations()[station];
     const auto angles = aim_at(tripod.nominal, world_.site().to_ecef({0.0, 0.0, 75.0}));
@@ -94,7 +94,7 @@ class StationInSimulatedTime : public testing::Test {
   StationSettings settings_of(const std::string& station) const {
     StationSettings settings = load_station_settings(folder_ / (station + ".toml"));
     settings.video.address.clear();
-    settings.host.silence_s = 1e9;  // it reads this host, in this host's time
+    settings.host.silence_s = 1e9;  // the monitor reads this host, in this host's time
     return settings;
   }
 
@@ -106,12 +106,12 @@ class StationInSimulatedTime : public testing::Test {
     return time_.pass(kHoming_s, [&] { return says(words); });
   }
 
-  // Whether it is done.
+  // Sends a new order; returns whether it was accepted.
   bool give(std::int8_t command, double pan_rad = 0.0, const std::string& station = "alfa") {
     ++sequence_;
     return send(command, pan_rad, station);
   }
-  // The same under the last order's number again.
+  // The same, but with the sequence number of the last order.
   bool send(std::int8_t command, double pan_rad = 0.0, const std::string& station = "alfa") {
     Command message{};
     message.utime = clock_utime_us();
@@ -144,7 +144,7 @@ class StationInSimulatedTime : public testing::Test {
   ols_msg::station_status_t status_{};
   std::optional<ols_msg::command_reply_t> reply_;
   std::int64_t sequence_ = 0;
-  double tilt_rad_ = 0.0;  // of orders to point
+  double tilt_rad_ = 0.0;  // tilt of orders to point
   std::optional<sim::SimulatedStation> station_;
 };
 

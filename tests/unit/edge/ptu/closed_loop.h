@@ -1,4 +1,4 @@
-// The driver and the simulated unit joined by a line, in simulated time.
+// The driver and the simulated unit, connected by a serial line, in simulated time.
 #pragma once
 
 #include <functional>
@@ -37,7 +37,7 @@ class ClosedLoop {
   void tick() {
     time_s += kTick_s;
     const double now_s = time_s;
-    unit.set_master_baud(driver.line_baud());  // the thread sets the port so
+    unit.set_master_baud(driver.line_baud());  // as the driver's thread sets the port
     std::string request = driver.step(now_s);
     if (change_request) change_request(request);
     if (!request.empty() && !cut) {
@@ -62,14 +62,14 @@ class ClosedLoop {
     }
   }
 
-  // Until ready, at most `limit_s`.
+  // Runs until the driver is ready, at most `limit_s`.
   bool start(double limit_s = 5.0) {
     const double end_s = time_s + limit_s;
     while (driver.state() != PtuState::kReady && time_s < end_s) tick();
     return driver.state() == PtuState::kReady;
   }
 
-  // A goal that is fresh now.
+  // A goal that begins now.
   mount::Goal goal(const PanTilt& angles, const PanTilt& rate = {}) const {
     return {time_s, angles, rate, time_s + 0.5};
   }
@@ -80,9 +80,9 @@ class ClosedLoop {
   PtuDriver driver;
   double time_s;
   bool cut = false;                                  // requests do not arrive
-  std::function<void(std::string&)> garble;          // what happens to the unit's bytes
-  std::function<void(std::string&)> change_request;  // on its way to the unit
-  std::function<double()> late_s;                    // how long this host keeps a request back
+  std::function<void(std::string&)> garble;          // changes the unit's bytes
+  std::function<void(std::string&)> change_request;  // changes a request on its way to the unit
+  std::function<double()> late_s;                    // how long this host delays a request
   std::string sent;
 
  private:

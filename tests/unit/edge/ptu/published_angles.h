@@ -1,5 +1,6 @@
-// Angles as a station publishes them, against the truth: for a camera of 15 Hz, each exposure's
-// angles are asked for once they are bracketed by samples, or when they can wait no longer.
+// Compares angles with the truth, at the times at which a station publishes them. The camera has 15
+// Hz. The angles of an exposure are computed when there are samples before and after it, or at the
+// latest after a short wait.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ class PublishedAngles {
  public:
   explicit PublishedAngles(const mount::AngleHistory::Config& config) : history_(config) {}
 
-  // Once in each tick of the loop.
+  // Call once in each tick of the loop.
   void step(ClosedLoop& loop) {
     constexpr double kFrame_s = 1.0 / 15.0, kArrival_s = 0.02, kWait_s = 0.03;
     for (const mount::AngleSample& sample : loop.driver.take_samples())
@@ -45,7 +46,7 @@ class PublishedAngles {
   double rms_deg() const { return degrees(std::sqrt(square_sum_ / published)); }
 
   int published = 0, withheld = 0;
-  int beyond_three = 0;  // of both axes
+  int beyond_three = 0;  // errors beyond three sigmas, of both axes
   double worst_sigmas = 0.0;
   double worst_deg = 0.0;
 

@@ -1,4 +1,5 @@
-// What a D46 states of itself, and replies as they come from the parser.
+// The facts that a PTU-D46 reports about itself, and replies in the form in which the parser
+// returns them.
 #pragma once
 
 #include <string>
@@ -16,7 +17,7 @@ inline PtuFacts d46_facts() {
           "Pan-Tilt Controller v2.14.0"};
 }
 
-// `* text`, whose first byte is read at `began_s` and whose end at `ended_s`.
+// The reply `* text`. `began_s`, `ended_s`: when its first and its last byte were read.
 inline PtuReply reply(const std::string& text = {}, double began_s = 0.0, double ended_s = 0.0) {
   PtuReply made;
   made.text = text;

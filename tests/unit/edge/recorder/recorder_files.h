@@ -1,4 +1,4 @@
-// What a test of the recorder looks at in a folder, and frames for it.
+// Reads the recorder's files, and makes frames for its tests.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ inline std::string content_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Noise, so that a PNG of it is no smaller than the picture.
+// A frame of noise: its PNG is not smaller than the picture.
 inline RecordedFrame noisy_frame(std::uint64_t number, double time_s, int side_px = 64) {
   RecordedFrame frame;
   frame.picture = cv::Mat(side_px, side_px, CV_8UC1);

@@ -1,4 +1,4 @@
-// A real gpsd for a test, on a free port of the loopback, reading one device at a fixed speed.
+// Runs a real gpsd for a test, on a port of the loopback. It reads one device at a fixed speed.
 #pragma once
 
 #include <arpa/inet.h>
@@ -34,7 +34,8 @@ class GpsdProcess {
     return std::to_string(ntohs(address.sin_port));
   }
 
-  // `device` empty: no receiver, but a socket on which one could be given to it.
+  // If `device` is empty, gpsd has no receiver, only a control socket through which a receiver
+  // could be added.
   GpsdProcess(const std::string& device, const std::string& port) {
     const std::string control = "/tmp/ols_gpsd_" + port + ".socket";
     const char* option = device.empty() ? "-F" : "-b";
@@ -44,7 +45,8 @@ class GpsdProcess {
     if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid_ > 0) return;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    ::unshare(CLONE_NEWIPC);  // gpsd leaves shared memory behind; where that is forbidden, so be it
+    // gpsd leaves shared memory behind; a failure of this call does no harm.
+    ::unshare(CLONE_NEWIPC);
     ::execl(kProgram, kProgram, "-N", "-n", "-s", "38400", "-f", "8N1", "-S", port.c_str(), option,
             last, nullptr);
     ::_exit(127);

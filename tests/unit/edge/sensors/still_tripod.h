@@ -1,4 +1,5 @@
-// Readings of a tripod that stands still, for the tests of the pose and of its two parts.
+// Readings of the sensors on a tripod at rest, for the tests of the pose, the position and the
+// tilt.
 #pragma once
 
 #include <cmath>
@@ -39,7 +40,7 @@ inline GnssReading no_fix(double time_s) {
   return r;
 }
 
-// A tilt whose last digits move, as they do.
+// A tilt whose last digits vary, as with a real sensor.
 inline TiltReading tilt(double time_s, double x_deg = 0.12, double y_deg = -0.08) {
   const double flicker_deg = 0.0005 * std::sin(7.3 * time_s);
   return {time_s, radians(x_deg + flicker_deg), radians(y_deg)};
@@ -60,7 +61,7 @@ inline PoseEstimator::Config surveyed() {
   return c;
 }
 
-// Feeds both sensors from..to, ten tilts and one fix a second.
+// Adds the readings of both sensors between these times: ten tilts and one fix a second.
 inline void feed(PoseEstimator& estimator, double from_s, double to_s,
                  const Vector3d& error_enu_m = Vector3d::Zero()) {
   for (int i = 0; from_s + 0.1 * i < to_s; ++i) {

@@ -1,4 +1,4 @@
-// A station among made hills, as they are and as a model with errors has them.
+// A station among random hills: the true hills, and a model of them with errors.
 #pragma once
 
 #include <cmath>
@@ -29,7 +29,7 @@ class MadeSite {
         [this](double lat, double lon) { return height_m(at(lat, lon)) + error_.at(at(lat, lon)); },
         kModelSd_m);
   }
-  // 80 m above the true ground.
+  // The camera's position, 80 m above the true ground.
   Geodetic camera() const {
     Geodetic camera = kCentre;
     camera.height_m = height_m(Eigen::Vector2d::Zero()) + 80.0;
@@ -53,7 +53,7 @@ class MadeSite {
   sim::ErrorField error_;
 };
 
-// Coarse, so that it is quick.
+// Coarse, so that the map is made quickly.
 inline land::HorizonMapConfig quick_map() { return {.columns = 720, .reach_m = 10'000.0}; }
 
 }  // namespace ols::skyline

@@ -1,4 +1,4 @@
-// What a unit has reported at an instant, for the tests that need no more of it.
+// A unit's angles at an instant, for tests that need no other part of the sample.
 #pragma once
 
 #include "edge/mount/angle_history.h"

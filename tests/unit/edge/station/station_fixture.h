@@ -1,5 +1,5 @@
-// A station with a scripted tracker, a PTU that stands where it is put, and time that the test
-// runs.
+// A station with a scripted tracker and a PTU whose angles the test sets. The test advances the
+// time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,12 +13,12 @@
 
 namespace ols::station::test {
 
-// A tracker that says what the test wants it to say.
+// A tracker that returns what the test has set in its script.
 struct ScriptedTracker : tracker::TargetTracker {
   struct Script {
     double belief = 0.9;
     Eigen::Vector2d pixel{639.5, 479.5};
-    double size_px = 20.0;  // of its box
+    double size_px = 20.0;  // width and height of the tracker's box
     bool accept = true, prediction_dropped = false;
     std::optional<double> prediction_error_px;
     std::optional<tracker::ImageMotion> image_motion;
@@ -75,7 +75,8 @@ class StationTest : public testing::Test {
     return config;
   }
 
-  // PTU samples every 20 ms and a frame every 1/15 s until `end_s`; collects the bearings.
+  // Runs until `end_s`, with PTU samples every 20 ms and a frame every 1/15 s; collects the
+  // bearings.
   void run_until(double end_s, bool frames = true, const cv::Mat& gray = {}) {
     while (now_ < end_s) {
       now_ += 0.005;

@@ -1,4 +1,4 @@
-// Pictures of a known target before a known background, for the tracker's tests.
+// Pictures of a known target in front of a known background, for the tests of the tracker.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace ols::tracker::testing {
 
 enum class Backdrop { kTextured, kSky };
 
-// A world larger than the picture; the camera looks at a shifted part of it.
+// The background is larger than the picture; the camera sees a part of it.
 class SyntheticScene {
  public:
   SyntheticScene(Backdrop backdrop, std::uint64_t seed, double noise_sd = 2.0)
@@ -30,12 +30,12 @@ class SyntheticScene {
     }
   }
 
-  // `camera`: the world's position of the picture's top-left pixel. `target`: its centre in the
-  // picture; nothing when it is away.
+  // `camera`: where the picture's top-left pixel is in the background. `target`: the target's
+  // centre in the picture; nullopt: no target.
   cv::Mat picture(const cv::Point2d& camera, const std::optional<cv::Point2d>& target) {
     return picture_of(camera, target, std::nullopt);
   }
-  // With two targets that look alike.
+  // A picture with two targets that look alike.
   cv::Mat pair(const cv::Point2d& camera, const cv::Point2d& target, const cv::Point2d& other) {
     return picture_of(camera, target, other);
   }
@@ -62,7 +62,7 @@ class SyntheticScene {
     return gray;
   }
 
-  // A dark body with a bright spot, smooth enough to have a position between the pixels.
+  // A dark body with a bright spot, smooth enough that its position may be between pixels.
   static void draw(cv::Mat& image, const cv::Point2d& centre) {
     for (int row = 0; row < image.rows; ++row) {
       for (int column = 0; column < image.cols; ++column) {
@@ -93,7 +93,7 @@ inline Eigen::Matrix3d shift_homography(double x, double y) {
   return shift;
 }
 
-// A tracker that follows the target of such a scene, and the frames that it is given.
+// Frames for a tracker, and a tracker that follows the target of a scene.
 inline constexpr double kInterval = 1.0 / 15.0;
 inline const cv::Point2d kStart(300.0, 220.0);
 

@@ -1,4 +1,4 @@
-// A viewer for the tests of a station's video socket.
+// A client of a station's video socket, for tests.
 #pragma once
 
 #include <boost/asio/connect.hpp>
@@ -18,7 +18,7 @@
 
 namespace ols::video {
 
-// A port of loopback that was free a moment ago.
+// A port of the loopback that was free just now.
 inline unsigned short free_port() {
   boost::asio::io_context io;
   boost::asio::ip::tcp::acceptor probe(io, {boost::asio::ip::make_address("127.0.0.1"), 0});
@@ -51,7 +51,7 @@ class Viewer {
     boost::asio::write(socket_, boost::asio::buffer(bytes), error);
   }
 
-  // Waits for it; empty: the station has closed the connection.
+  // Waits for a frame; nullopt: the station has closed the connection.
   std::optional<ols_msg::video_frame_t> receive() {
     LengthPrefix prefix;
     boost::system::error_code error;

@@ -1,4 +1,4 @@
-// A framed message of SAPIENT, read again.
+// Parses a framed SAPIENT message.
 #pragma once
 
 #include <gtest/gtest.h>

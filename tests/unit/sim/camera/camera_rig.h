@@ -1,4 +1,4 @@
-// A simulated camera and a station's camera on 127.0.0.1, and how to wait for what they do.
+// A simulated camera and the station's driver of it on 127.0.0.1, and functions that wait for them.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ inline double clock_s(clockid_t clock) {
 
 inline void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
 
-// A picture that tells which exposure it is of, in its first pixels.
+// Writes the exposure into the first pixels of its picture.
 inline void sign(const sim::Exposure& exposure, cv::Mat& picture) {
   std::memcpy(picture.data, &exposure, sizeof exposure);
 }
@@ -43,7 +43,7 @@ inline double true_middle_s(const camera::Frame& frame) {
   return 1e-9 * static_cast<double>(exposure.start_monotonic_ns) + 0.5 * exposure.exposure_s;
 }
 
-// A ramp, signed.
+// Draws a ramp, and writes the exposure into it.
 inline void draw(const sim::Exposure& exposure, cv::Mat& picture) {
   for (int y = 0; y < picture.rows; ++y)
     for (int x = 0; x < picture.cols; ++x)

@@ -1,4 +1,4 @@
-// A master of a simulated PTU in simulated time.
+// The master of a simulated PTU, in simulated time.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ class Master {
  public:
   explicit Master(const PtuUnitConfig& config) : unit(config, 1, 0.0) { first = wait(0.5); }
 
-  // Everything that the unit says within `duration_s` of sending.
+  // Sends a request; returns everything that the unit sends within `duration_s`.
   std::string ask(const std::string& request, double duration_s = 0.5) {
     unit.receive(request, time_s);
     return wait(duration_s);
@@ -33,13 +33,13 @@ class Master {
     return said;
   }
   void set(const PtuFaults& faults) { unit.set_faults(faults, time_s); }
-  // Of the mechanism.
+  // The true position of the mechanism.
   double pan_counts() const { return unit.angles_at(time_s).pan_rad / radians(11.5714 / 3600.0); }
   double tilt_counts() const { return unit.angles_at(time_s).tilt_rad / radians(11.5714 / 3600.0); }
 
   FaultyPtuUnit unit;
   double time_s = 0.0;
-  std::string first;  // what it said at power-up
+  std::string first;  // the unit's output at power-up
 };
 
 }  // namespace ols::sim

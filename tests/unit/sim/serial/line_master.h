@@ -1,4 +1,4 @@
-// A master at the end of a line.
+// The master at one end of a serial line.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace ols::sim {
 
-// Whether it hears this reply at last: what the unit said at power-up may still be on the line.
+// Sends a request; returns whether the bytes received end with this reply. Output from the unit's
+// power-up may come before it.
 inline bool answers(serial::SerialPort& port, const std::string& request,
                     const std::string& reply) {
   port.write(request);

@@ -1,4 +1,4 @@
-// An ONVIF camera on 127.0.0.1 that answers as a test scripts it.
+// An ONVIF camera on 127.0.0.1; the test provides its answers.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -40,7 +40,7 @@ class FakeCamera {
     return "http://127.0.0.1:" + std::to_string(acceptor_.local_endpoint().port()) +
            "/onvif/device_service";
   }
-  // Of all requests so far: "Stop".
+  // The names of all requests so far, for example "Stop".
   std::vector<std::string> names() const {
     const std::lock_guard lock(mutex_);
     return names_;
