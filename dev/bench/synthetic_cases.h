@@ -11,7 +11,7 @@
 namespace ols::bench {
 
 enum class CameraPath {
-  kTurning,   // turns at a constant rate in azimuth; the target's path is fixed in the image
+  kTurning,   // turns at a constant rate in azimuth; the target's path in the image stays the same
   kSwinging,  // turns to and fro; a target at rest in the sky crosses the image
 };
 enum class TargetPath {

@@ -21,9 +21,9 @@ class SyntheticTarget {
  public:
   explicit SyntheticTarget(const TargetLook& look);
 
-  // Draws it into an image (float, gray levels). `centre_px`: (0, 0) is the centre of the top-left
-  // pixel. `smear_px`: how far the target moves during the exposure. `growth`: the target's size
-  // over that of its TargetLook.
+  // Draws the target into an image (float, gray levels). `centre_px`: (0, 0) is the centre of the
+  // top-left pixel. `smear_px`: how far the target moves during the exposure. `growth`: the
+  // target's size over that of its TargetLook.
   void draw(cv::Mat1f& picture, const Eigen::Vector2d& centre_px, const Eigen::Vector2d& smear_px,
             double growth) const;
 

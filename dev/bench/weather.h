@@ -1,6 +1,6 @@
-// Scenes without any target, which measure the false alarms of a detector: weather in front of a
-// camera at rest. Each scene is drawn from its seed and is not periodic: textures drift against
-// each other, plants swing in random gusts, and drops, insects and stars are random.
+// Scenes without any target, with which the false alarms of a detector are measured: weather in
+// front of a camera at rest. Each scene is drawn from its seed and is not periodic: textures drift
+// against each other, plants swing in random gusts, and drops, insects and stars are random.
 //
 // The camera has 1 px = 75 urad (bench_camera()), an aperture of 6 to 18 mm, and exposures of 1 to
 // 10 ms. An object nearer than 40 m is therefore blurred over several pixels, and a raindrop is a

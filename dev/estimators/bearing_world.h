@@ -24,7 +24,7 @@ struct WorldConfig {
   double noise_rad = 3e-4;
   double bias_sd_rad = 0.0;     // of each station's bias, a rotation about east, north and up
   double heading_sd_rad = 0.0;  // of an additional rotation about up
-  double bias_time_s = 1e12;    // correlation time of both; this value: they are constant
+  double bias_time_s = 1e12;    // correlation time of both; with the default they are constant
   // Constant error of each station's stated position, in each of east, north, up.
   double place_sd_m = 0.0;
   bool bias_stated = true;       // whether the stations state these sigmas with their bearings

@@ -27,7 +27,7 @@ inline constexpr std::array<SimulatedKind, 7> kSimulatedKinds = {{
 
 // 1-sigma of the errors of the observed features; 0: no error.
 struct LookNoise {
-  double size = 0.0;       // of the size in one image, relative; independent
+  double size = 0.0;       // of the size in one image, relative; independent from image to image
   double size_bias = 0.0;  // of the size, relative; constant over a track, and not stated
   double speed_m_s = 0.0;  // of each axis of the velocity; correlated over a second
   double ground_m = 0.0;   // of the height above the ground; constant over a track

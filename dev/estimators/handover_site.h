@@ -22,7 +22,7 @@ struct FlyingTarget {
 };
 
 struct HandoverSiteConfig {
-  // Stations that turn [m]; at first, all point upwards to the north.
+  // Positions [m] of the stations that turn. At first, all point upwards to the north.
   std::vector<Eigen::Vector3d> stations_enu;
   std::optional<Eigen::Vector3d> overview_enu{};
   bool stations_turn = true;  // false: they, too, are fixed and see the whole sky

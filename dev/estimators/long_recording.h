@@ -8,7 +8,8 @@ namespace ols::bench {
 
 struct LongRecording {
   std::size_t rows = 1'000'000;
-  // On a circle with a radius of 300 m; each has 25 exposures a second, evenly staggered.
+  // The stations are on a circle with a radius of 300 m. Each has 25 exposures a second, evenly
+  // staggered.
   int stations = 4;
   int targets = 1;        // number of targets that each station sees in each exposure
   bool are_named = true;  // the file has the column `target`

@@ -4,8 +4,8 @@
 //   bearings.csv  run,time_s,station,azimuth_rad,elevation_rad   in order of time in each run
 //   fixes.csv     run,time_s,true_{east,north,up}_m,{east,north,up}_m   after each bearing; empty
 //                 before there is a position
-//   pinned.csv    what is known beforehand and true: noise_rad,disturbance, and our cpu_us a
-//   bearing
+//   pinned.csv    noise_rad,disturbance   the true values, which both filters know
+//                 cpu_us                  processor time of our filter per bearing
 #pragma once
 
 #include <string>

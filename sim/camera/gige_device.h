@@ -48,7 +48,7 @@ struct GigeDeviceConfig {
   int width_px = 0, height_px = 0;
   double exposure_s = 0.005;
   gige::FeatureNames names = gige::FeatureNames::kGt1290c;
-  // false: the register of the tick frequency reads 0, as in some firmware
+  // False: the register of the tick frequency reads 0, as in some firmware.
   bool tick_frequency = true;
 };
 

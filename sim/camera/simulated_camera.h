@@ -23,7 +23,7 @@ struct SimulatedCameraConfig {
   double readout_s = 0.010;   // from the end of the exposure to the drawing of the frame
 
   gige::FeatureNames names = gige::FeatureNames::kGt1290c;
-  // false: the register of the tick frequency reads 0, as in some firmware
+  // False: the register of the tick frequency reads 0, as in some firmware.
   bool tick_frequency = true;
   double clock_drift_ppm = 20.0;  // of the camera's own clock, which starts near 0
   double tai_minus_utc_s = 37.0;  // of the PTP master, whose UTC is the host's clock

@@ -22,10 +22,10 @@ namespace ols::sim {
 
 class LiveSite {
  public:
-  // Now is the scenario's time 0, and the host's clock now shows true UTC. Both times then advance
-  // with the monotonic clock: a step of the host's clock does not move the targets. `line_folder`:
-  // folder of the links to the serial lines. Throws std::system_error if an address or a link is
-  // not available.
+  // At the construction, the scenario's time is 0, and true UTC is that of the host's clock.
+  // Afterwards both advance with the monotonic clock: a step of the host's clock does not move the
+  // targets. `line_folder`: folder of the links to the serial lines. Throws std::system_error if an
+  // address or a link is not available.
   LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
   ~LiveSite();
 

@@ -1,5 +1,5 @@
-// How well a site predicts and survives that the land hides a target from its stations, in
-// simulated time.
+// Measures, in simulated time, how well a site predicts that the land hides a target from a
+// station, and how soon the station then finds the target again.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace ols::sim {
 
-// The error of a predicted exit, the instant and direction in which the target emerges from behind
-// the land. NEES: the squared error over the stated variance, per dimension.
+// The error of a predicted exit. The exit is the instant and the direction in which the target
+// emerges from behind the land. NEES: the squared error over the stated variance, per dimension.
 struct JudgedExit {
   double ahead_s = 0.0;  // from the prediction to the true exit
   double error_s = 0.0, sd_s = 0.0;

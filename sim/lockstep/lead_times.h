@@ -1,5 +1,5 @@
-// The time, in simulated time, until stations that have never seen the target follow it. The
-// stations are led to it by a click (overview_click.h) or a cue (outside_cue.h).
+// Measures how long, in simulated time, stations that have never seen the target take to follow it.
+// The stations are led to it by a click (overview_click.h) or a cue (outside_cue.h).
 #pragma once
 
 #include <map>

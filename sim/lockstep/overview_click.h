@@ -12,7 +12,7 @@ struct ClickConfig {
   double elapsed_s = 0.0;  // of the flight before the scenario's start
   double aimed_s = 2.0;    // when the operator turns the station towards the target
   double clicked_s = 4.5;  // when the operator clicks on the target
-  double zoom = 0.3;       // the zoom position then, as a share of the lens's travel
+  double zoom = 0.3;       // the zoom position at the click, as a share of the lens's travel
   double patience_s = 20.0;
 };
 

@@ -22,7 +22,7 @@ struct PtzUnitConfig {
   // 1-sigma of the position error after a move to a position. The reported positions do not show
   // it.
   double repeatability_rad = 0.0;
-  double boot_s = 20.0;  // after power-up, without answers
+  double boot_s = 20.0;  // time after power-up in which the unit gives no answers
 };
 
 class PtzUnit {

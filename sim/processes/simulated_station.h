@@ -64,7 +64,7 @@ class SimulatedStation {
   StationFaults faults_;
   std::int64_t exposures_ = 0, boots_ = 0, steps_ = 0;
   std::vector<Sent> sent_;
-  // Of the process.
+  // Parts of the process.
   CameraInHand* camera_ = nullptr;
   UnitInHand* ptu_ = nullptr;
   LensInHand* lens_ = nullptr;                  // null: not configured

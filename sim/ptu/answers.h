@@ -13,7 +13,7 @@ namespace ols::sim {
 
 class PtuAnswers {
  public:
-  // `setup` and `motion` must outlive it.
+  // `setup` and `motion` must outlive this object.
   PtuAnswers(const PtuUnitConfig& config, const PtuSetup& setup, const PtuMotion& motion)
       : config_(config), setup_(setup), motion_(motion) {}
 

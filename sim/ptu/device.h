@@ -11,7 +11,7 @@ class PtuDevice {
  public:
   virtual ~PtuDevice() = default;
 
-  // From any thread.
+  // May be called from any thread.
   virtual void set_faults(const PtuFaults& faults) = 0;
 
   // Waits until angles_at() for this instant of CLOCK_MONOTONIC [s] will no longer change; gives up

@@ -21,7 +21,8 @@ struct PtuToken {
 
 class PtuMotion {
  public:
-  // `settings` must outlive it; homing applies the step mode, which changes the size of a count.
+  // `settings` must outlive this object; homing applies the step mode, which changes the size of a
+  // count.
   PtuMotion(const PtuUnitConfig& config, PtuSettings& settings, double power_up_s);
 
   // Powers up: selects the factory's modes, without any planned motion.

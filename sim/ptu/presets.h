@@ -13,7 +13,7 @@ namespace ols::sim {
 
 class PtuPresets {
  public:
-  // `motion` must outlive it.
+  // `motion` must outlive this object.
   explicit PtuPresets(PtuMotion& motion) : motion_(motion) {}
 
   // Executes a preset command and returns the answer; nullopt: the command is not one.

@@ -29,8 +29,8 @@ struct PtuFaults {
   double garble_share = 0.0;
   double reply_lost_every_s = 0.0;  // interval at which one reply is lost; 0: never
   bool echo_on = false;             // the edge from false to true switches echo on, as EE does
-  bool power_cycle = false;         // the edge from false to true switches it off and on
-  std::optional<bool> homes_then;   // whether it then homes at power-up; nullopt: as configured
+  bool power_cycle = false;         // the edge from false to true switches the unit off and on
+  std::optional<bool> homes_then;   // whether the unit then homes; nullopt: as configured
   // The edge from 0: pan slips by this, and the unit's counter does not change.
   double lost_steps_deg = 0.0;
   bool operator==(const PtuFaults&) const = default;

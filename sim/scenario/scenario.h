@@ -95,7 +95,7 @@ struct StationScenario {
   std::string ptu_line;   // file name of the pty's link
   bool overview = false;  // an overview station: a person controls it, and it has a zoom lens
   ZoomScenario zoom;
-  std::optional<PanTilt> fixed;  // the camera stands still at these angles; empty: a PTU
+  std::optional<PanTilt> fixed;  // the camera never moves from these angles; empty: it can turn
   // The field that the station watches while nothing else uses its unit: its middle here, its width
   // and height below.
   std::optional<AzimuthElevation> watch;

@@ -1,5 +1,5 @@
 // Reads the landmarks of a scenario, in UTM as in a land register, and how the stations find their
-// headings by sighting landmarks.
+// headings.
 #pragma once
 
 #include <vector>

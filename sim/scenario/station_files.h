@@ -14,9 +14,9 @@ namespace ols::sim {
 struct StationFileOptions {
   std::string lcm_url;
   std::string line_folder;  // where the simulator puts the links to the serial lines
-  // Folder of the stations' persisted state, which is created. A station without persisted state
-  // starts without an emergency stop and with a trusted reference. Empty: the stations persist
-  // nothing.
+  // Folder of the stations' persisted state; the folder is created. A station without persisted
+  // state starts without an emergency stop and with a trusted reference. Empty: the stations
+  // persist nothing.
   std::string state_folder;
 };
 

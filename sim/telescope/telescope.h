@@ -3,8 +3,8 @@
 // Pure.
 //
 // It behaves like INDI's own simulator. An abort ends a slew and leaves tracking on. While the
-// mount tracks, a rate in the opposite direction is refused. A new rate has no effect while it does
-// not track.
+// mount tracks, a rate in the opposite direction is refused. A new rate has no effect while the
+// mount does not track.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ class Telescope {
  public:
   Telescope(const TelescopeConfig& config, std::uint64_t seed, double time_s);
 
-  // Answers one element from a client with any number of elements. Like real drivers, ignores what
-  // is not an element of INDI.
+  // Answers one element from a client; the answer has any number of elements. Like real drivers,
+  // ignores what is not an element of INDI.
   std::string answer(const std::string& element, double time_s, double utc_s);
   // The report of the position that the driver sends without a request, every interval_s().
   std::string report(double time_s, double utc_s);

@@ -25,8 +25,8 @@ struct FlyerView {
 };
 
 // The smallest upright box around the silhouette, without smear. A box is given by pixel edges, but
-// (0, 0) of view.centre_px is a pixel centre: the middle of the box is therefore half a pixel
-// greater.
+// (0, 0) of view.centre_px is a pixel centre: the coordinates of the box's middle are therefore
+// half a pixel greater than centre_px.
 cv::Rect2d flyer_box(const FlyerView& view);
 
 // A target's contribution to an image: the new image is the background times (1 - covered), plus

@@ -59,7 +59,7 @@ class Panorama {
 
   CameraIntrinsics camera_;
   float px_per_texel_ = 1.0F;
-  double made_for_px_ = 0.0;  // focal length
+  double made_for_px_ = 0.0;  // focal length at construction
   double texels_per_rad_ = 0.0;
   cv::Mat slopes_;            // 8-bit; one period, repeated once in both directions
   cv::Mat sky_;               // float, coarse, of the whole panorama

@@ -1,5 +1,6 @@
-// Stations the world's stations as a field team would: each station sights landmarks or other
-// stations, and the product's stationing (calibration/stationing.h) computes the station's pose.
+// Performs the stationing of all stations as a field team would: each station sights landmarks or
+// other stations, and the product's stationing (calibration/stationing.h) computes the station's
+// pose.
 #pragma once
 
 #include <cstdint>

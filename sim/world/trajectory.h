@@ -49,7 +49,7 @@ class Spline final : public Trajectory {
   std::vector<Eigen::Vector3d> curvature_;  // second derivative at each point
 };
 
-// A spline through waypoints, with this mean speed between each two of them.
+// A spline through waypoints. `speed_m_s`: its mean speed on each leg.
 std::unique_ptr<Trajectory> through_waypoints(const std::vector<Eigen::Vector3d>& points_enu,
                                               double speed_m_s);
 

@@ -1,6 +1,7 @@
 // The errors of a simulated pan-tilt unit and its camera: of gears, axes and lens, drawn from a
 // seed. Some of these errors are in no model of the product. Written from docs/calibration.md,
-// without the product's own model: a wrong sign there cannot cancel here. Pure.
+// without the product's own model: a wrong sign in a shared model would cancel and stay unnoticed.
+// Pure.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -38,7 +39,7 @@ struct UnitTruth {
                       // to the pan axis
   ShaftTruth pan, tilt;
   double trunnion_rad = 0.0;
-  // The counts with an exposure's stamp are those of this much later.
+  // An exposure happens this much later than the counts that have the same stamp.
   double exposure_offset_s = 0.0;
   double jitter_rad = 0.0;
   std::uint64_t jitter_seed = 0;

@@ -17,8 +17,8 @@ namespace ols::sim {
 
 struct StationTruth {
   std::string id;
-  // The geometry in the station's configuration, with its sigmas. If the station has been
-  // stationed, it is the result of that.
+  // The geometry in the station's configuration, with its sigmas. After a stationing, it is the
+  // stationing's result.
   StationGeometry nominal;
   StationGeometry truth;  // without the errors of `unit`
   UnitTruth unit;

@@ -1,5 +1,5 @@
-// A picture with edges everywhere, shifted by any amount: two of these are views that tests
-// compare.
+// A picture with edges everywhere, shifted by a given amount. Tests compare two such pictures as
+// two views of the same place.
 #pragma once
 
 #include <opencv2/imgproc.hpp>

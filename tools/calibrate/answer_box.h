@@ -28,8 +28,8 @@ class AnswerBox {
   std::int64_t question_ = 0;
   std::optional<Answer> answer_;
   bool is_aborted_ = false;
-  // boot id and number of each taken answer; other answers are not stored, so that a flood of them
-  // cannot fill the memory
+  // Boot id and number of each taken answer. Other answers are not stored: a flood of them cannot
+  // fill the memory.
   std::set<std::pair<std::int64_t, std::int64_t>> heard_;
 };
 

@@ -3,8 +3,9 @@
 // ever overwritten; a single rename of the link returns to an earlier one.
 //
 //   FOLDER/current -> 4711            switched by one rename
-//   FOLDER/instrument -> 4712         an instrument without a setup, accepted later; without it,
-//                                     the instrument of the calibration in use
+//   FOLDER/instrument -> 4712         the instrument with which new setups begin, accepted without
+//                                     a setup; if there is no such link, new setups begin with the
+//                                     instrument of the calibration in use
 //   FOLDER/4711/                      instrument.toml, setup.toml, covariance.csv, reports; raw
 //                                     observations, references, frames, to repeat the computation
 //   FOLDER/<UTC>-field.running/       a running procedure
@@ -24,7 +25,7 @@ struct HistoryLine {
   std::int64_t utime_us = 0;
   std::string event;      // "accepted", "instrument", "kept", "reverted"
   std::string id;         // the calibration's id
-  std::string procedure;  // the procedure that made it
+  std::string procedure;  // the procedure that made the calibration
   std::string previous;   // the calibration that was in use before; empty: none
 };
 
@@ -44,7 +45,7 @@ class CalibrationStore {
 
   // Creates the folder of a running procedure.
   std::filesystem::path begin(const std::string& procedure, std::int64_t utime_us);
-  // Renames the folder, with all its data, as interrupted; returns its new name.
+  // Renames the folder, with all its data, as interrupted; returns the new name.
   std::filesystem::path interrupt(const std::filesystem::path& running);
   // The folders of interrupted procedures, oldest first.
   std::vector<std::filesystem::path> interrupted() const;

@@ -16,9 +16,9 @@ struct CameraOptions {
   std::string output;
 };
 
-// Fits the camera and writes the folder. In some pictures the board is usually not found; if it is
-// missing in most, the report says that its description is probably wrong. Throws
-// std::runtime_error or std::invalid_argument naming picture or option.
+// Fits the camera and writes the folder. It is normal that the board is not found in some pictures.
+// If it is not found in most pictures, the report says that the description of the board is
+// probably wrong. Throws std::runtime_error or std::invalid_argument naming picture or option.
 CommandReport write_camera(const CameraOptions& options);
 
 }  // namespace ols::calibration

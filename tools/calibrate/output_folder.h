@@ -14,7 +14,7 @@ struct OutputFile {
   std::string text;
 };
 
-// While this object lives, SIGINT, SIGTERM and SIGHUP wait, in every thread. It protects the
+// While this object lives, SIGINT, SIGTERM and SIGHUP are delayed, in every thread. It protects the
 // writing of the results, which are only a few kilobytes.
 class SignalsWait {
  public:

@@ -29,8 +29,8 @@ class Person {
   // Shows the same question for another picture: only the last line of its text, which has the
   // measured value. Input that was typed earlier still counts as an answer.
   void ask_again(const Question& question);
-  // The answer to the question; nullopt: there is none yet. Reports an invalid line, and waits for
-  // another one.
+  // The answer to the question; nullopt: there is none yet. Reports an invalid line; the question
+  // stays open.
   std::optional<Answer> answer();
   // Whether nobody can answer: the script has ended, and there is no terminal.
   bool is_silent() const { return scripted_ && script_.empty(); }

@@ -25,8 +25,8 @@ class ProcedureRunner {
   using KeepAway = std::function<std::string(const PanTilt&)>;
   void keep_away(KeepAway why) { keep_away_ = std::move(why); }
 
-  // Runs to the end. A resumed session first reports its earlier results again, without motion.
-  // Throws StationStopped if a person stops the station or takes control of it, and
+  // Runs the procedure to its end. A resumed session first reports its earlier results again,
+  // without motion. Throws StationStopped if a person stops the station or takes control of it, and
   // std::runtime_error if the station no longer answers. SIGTERM and SIGINT abort.
   Outcome run(FieldProcedure& procedure, const Adjust& adjust);
   // Publishes the last message: how the procedure ended.

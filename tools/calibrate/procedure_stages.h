@@ -53,7 +53,7 @@ struct Procedure {
 };
 CaseOptions files_of(const ProcedureOptions& options, const StationFiles& station,
                      const ProcedureSession& session);
-// A procedure without stages. Loads the data of a session that has begun.
+// Makes a procedure without stages. Loads the data of a session that has begun.
 Procedure make_procedure(const ProcedureOptions& options, const StationFiles& station,
                          ProcedureSession& session);
 

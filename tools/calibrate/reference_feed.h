@@ -1,5 +1,6 @@
-// The references of a running procedure. Its folder has a copy of the file, which is updated while
-// a program appends to the file, such as a drone's ground station.
+// The references of a running procedure. A program, such as a drone's ground station, may append to
+// their file during the procedure. The procedure uses a copy of the file in its own folder, and
+// updates the copy.
 #pragma once
 
 #include <filesystem>

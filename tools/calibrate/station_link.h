@@ -1,5 +1,6 @@
-// A procedure's connection to one station: moves its unit with an operator's commands, requests
-// frames, receives its status, and carries the procedure's state and a person's answers.
+// A procedure's connection to one station: moves the unit with an operator's commands, requests
+// frames, receives the station's status, publishes the procedure's state, and receives a person's
+// answers.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,7 @@ enum class Arrival { kStands, kPasses, kRests, kAnywhere };
 
 class StationLink {
  public:
-  // Opens the signatures, with which the procedure signs as an operator. Null in mode off. Throws
+  // Opens the keys with which the procedure signs as an operator. Null in mode off. Throws
   // ConfigError.
   static std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config);
   // Throws BusError. `bus` must outlive this object.
@@ -62,8 +63,8 @@ class StationLink {
   void set_out(const PanTilt& angles);
   // Orders the unit to the angles of the last set_out(). Call only if may_point().
   void point();
-  // Turns the unit at these rates for a moment. For a longer motion, call it again within 0.3 s
-  // each time. The link must have pointed the unit before.
+  // Turns the unit at these rates for a moment. For a longer motion, call it again at least every
+  // 0.3 s. The link must have pointed the unit before.
   void turn_at(const PanTilt& rate_rad_s);
   // Why the station refused the last order to turn, in words; empty: it has not refused.
   const std::string& refusal() const { return refusal_; }

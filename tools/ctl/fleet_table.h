@@ -1,4 +1,5 @@
-// All stations at a glance: calibration, clock, disk, temperature, newest alarm. Pure.
+// Formats an overview of all stations for a person: calibration, clock, disk, temperature, newest
+// alarm. Pure.
 #pragma once
 
 #include <map>

@@ -25,7 +25,7 @@ struct StationFacts {
   struct Calibration {
     bool in_use = false, doubted = false;
     double sd_rad = 0.0;  // 1-sigma of a direction, each axis
-    double age_s = 0.0;   // since the last observation in it; 0: not stated
+    double age_s = 0.0;   // time since the calibration's last observation; 0: not stated
   } calibration;
   std::vector<Alarm> alarms;
   std::map<std::string, double> counters;
@@ -53,8 +53,9 @@ struct BusFacts {
 
 struct SerialFacts {
   std::string device;
-  int error = 0;                   // errno of opening the line; 0: it can be opened
-  std::vector<std::string> users;  // other processes that have it open: "ols-station (1234)"
+  int error = 0;  // errno of opening the line; 0: it can be opened
+  // Other processes that have opened the line: "ols-station (1234)".
+  std::vector<std::string> users;
 };
 
 struct PtuAxisAnswers {
@@ -86,7 +87,7 @@ struct CameraAnswers {
   std::string device;
   std::string trouble;  // why the camera cannot be used; empty: it can be used
   std::string identity;
-  bool controlled = false;  // whether another program controls it
+  bool controlled = false;  // whether another program controls the camera
   // False: Aravis stamps frames with the host's time instead of the camera's.
   bool has_clock = true;
   std::optional<double> temperature_degC;

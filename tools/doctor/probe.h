@@ -18,8 +18,8 @@ SerialFacts look_at_line(const std::string& device, int baud);
 // rates first, then the others. The queries end a unit's scan mode, which none of our programs
 // uses.
 PtuAnswers ask_ptu(const ptu::PtuConfig& config);
-// Run the station's own driver of a mount or a camera, of any kind, until the device reports that
-// it is well, but at most for `seconds`.
+// ask_mount(), ask_camera(): run the station's own driver of a mount or camera, of any kind, until
+// it reports that the device is well, but at most for `seconds`.
 device::DeviceReport ask_mount(const mount::MountKind& kind, double seconds);
 device::DeviceReport ask_camera(const camera::CameraKind& kind, double seconds);
 
@@ -33,8 +33,8 @@ std::vector<CameraSeen> cameras_that_answer();
 // Opens the camera's control channel for a moment. Takes no frame.
 CameraAnswers ask_camera(const camera::AravisConfig& config);
 
-// Run the driver of a sensor or lens until the device reports that it is well, but at most for
-// `seconds`.
+// The next three: run the driver of a sensor or lens until it reports that the device is well, but
+// at most for `seconds`.
 device::DeviceReport ask_gnss(const sensors::GnssKind& kind, double seconds);
 device::DeviceReport ask_inclinometer(const sensors::InclinometerKind& kind, double seconds);
 device::DeviceReport ask_lens(const lens::LensMotorConfig& config, double seconds);

@@ -1,5 +1,6 @@
 // The site's statuses as Prometheus metrics, with base units and names by Prometheus' conventions.
-// Target ids are no labels, because Prometheus stores every value of a label for ever. Pure.
+// Target ids are not used as labels, because Prometheus stores every value of a label for ever.
+// Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>

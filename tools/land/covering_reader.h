@@ -15,12 +15,12 @@ struct ReadCoverings {
 };
 
 // Reads the polygons within the bounds. Heights are above the ground. They come from the attribute
-// `height` (in metres, or in feet if it says so), or else are 3 m for each of `building:levels` or
-// `levels`. A feature without these attributes, or with an implausible height or place, is left out
-// and noted. Throws std::runtime_error naming a file that cannot be read.
+// `height`, which is in metres unless it has the unit of feet, or else are 3 m for each of
+// `building:levels` or `levels`. A feature without these attributes, or with an implausible height
+// or place, is left out and noted. Throws std::runtime_error naming a file that cannot be read.
 ReadCoverings read_coverings(const std::string& path, CoveringKind kind, const Bounds& bounds);
 
-// [m] Converts "12", "12.5 m", "40 ft" or "40'"; NaN for any other text.
+// Converts texts such as "12", "12.5 m", "40 ft" or "40'" to metres; NaN for any other text.
 double parse_height_m(const std::string& text);
 
 }  // namespace ols::land

@@ -28,7 +28,7 @@ struct LoggerConfig {
 config::Section logger_section(LoggerConfig& config);  // the whole file
 // Throws ConfigError.
 LoggerConfig load_logger_config(const std::string& path);
-// The same from the text of a file. Errors name `name` instead of a path.
+// The same from the text of a file. In errors, `name` is in the place of the path.
 LoggerConfig parse_logger_config(const std::string& text, const std::string& name);
 
 }  // namespace ols::logger

@@ -22,8 +22,8 @@ struct LoggerStatus {
   std::uint64_t removed = 0;     // files removed because of the quota
   std::uint64_t files_lost = 0;  // files that were deleted, renamed or replaced during writing
   std::uint64_t dropped = 0;     // messages lost because the disk was too slow
-  std::uint64_t fragments = 0;   // refused datagrams of the bus
-  std::uint64_t malformed = 0;   // refused datagrams of the bus
+  std::uint64_t fragments = 0;   // refused: fragments of messages
+  std::uint64_t malformed = 0;   // refused: not LCM, or with an invalid channel name
 };
 
 // The status as one line of JSON.

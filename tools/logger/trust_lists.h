@@ -14,8 +14,8 @@ namespace ols::logger {
 struct ReceivedList {
   std::int64_t number = 0;
   std::string text{};
-  // the list as a message; nullopt if the recorder is not a member of the site, because nobody
-  // would then believe the message
+  // The list as a message; nullopt if the recorder is not a member of the site, because nobody
+  // would then believe the message.
   std::optional<std::vector<std::uint8_t>> telling{};
 };
 

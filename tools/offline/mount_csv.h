@@ -1,4 +1,4 @@
-// Reads mount.csv, where a clip's camera pointed, with the columns
+// Reads mount.csv, which states where a clip's camera pointed. Its columns are
 // frame,azimuth_deg,elevation_deg,hfov_deg.
 #pragma once
 

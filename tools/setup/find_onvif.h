@@ -11,10 +11,10 @@
 
 namespace ols::setup {
 
-// Finds the cameras; reports answers that it refused.
+// Finds the cameras; prints the answers that it does not use.
 std::vector<onvif::FoundCamera> find_onvif();
 
-// "PTZ 4 at http://10.0.0.5/onvif/device_service"
+// A camera in words, such as "PTZ 4 at http://10.0.0.5/onvif/device_service".
 std::string words_of(const onvif::FoundCamera& camera);
 
 // Queries what a camera offers. `url`: of its device service. Throws onvif::LoginRefused,

@@ -9,7 +9,7 @@
 
 namespace ols::setup {
 
-// "main: H264, 1280 x 960, 25 Hz, turns".
+// A stream in words, such as "main: H264, 1280 x 960, 25 Hz, turns".
 std::string words_of(const onvif::Offer::Stream& stream);
 
 struct OnvifLogin {

@@ -15,8 +15,8 @@ inline constexpr int kTimeKey = 7316;
 
 // The text of /etc/chrony/conf.d/ols-site.conf. `neighbours`: addresses of the other hosts.
 std::string chrony_file(const std::vector<std::string>& neighbours);
-// /etc/chrony/conf.d/ols-gnss.conf: time from gpsd's receiver. It has no effect while the receiver
-// has no fix.
+// The text of /etc/chrony/conf.d/ols-gnss.conf, with which the time comes from gpsd's receiver. It
+// has no effect while the receiver has no fix.
 std::string receiver_chrony_file();
 // The text of /etc/chrony/chrony.keys (`present`) with the site's key; all other lines are
 // unchanged.

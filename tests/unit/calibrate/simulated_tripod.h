@@ -52,7 +52,7 @@ class SimulatedTripod {
       set("[calibration]", "[calibration]\nfolder = \"" + (store() / "current").string() + "\"");
     station::StationSettings settings = station::load_station_settings(config());
     settings.video.address.clear();
-    settings.host.silence_s = 1e9;  // the monitor reads this host, in this host's time
+    settings.host.silence_s = 1e9;  // the monitor measures the real host, in real time
     spdlog::set_level(spdlog::level::off);
     station.emplace(world, 0, settings, time);
     bus_.subscribe(station_channel(kProcedureChannel, "alfa"),

@@ -42,7 +42,7 @@ inline auto lines_on(double width_m, double height_m, double apart_m, double thi
   };
 }
 
-// The right cross is in the middle of the board, the left cross beside it; a line is above them and
+// The right cross is in the middle of the board, the left cross beside it; one line is above both,
 // one below.
 inline auto crosses_on(double apart_m, double arm_m, double thick_m) {
   return [=](double x, double y) -> std::optional<double> {

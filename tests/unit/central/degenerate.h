@@ -67,7 +67,7 @@ inline std::vector<Ray> rays_of(const DegenerateScene& scene, double sigma_rad,
     const Eigen::Vector3d& place = scene.places_enu[i];
     Eigen::Vector3d at = scene.target_enu;
     if (scene.away) at = 2.0 * place - at;
-    if ((at - place).norm() == 0.0) at += Eigen::Vector3d(0, 1, 0);  // some direction
+    if ((at - place).norm() == 0.0) at += Eigen::Vector3d(0, 1, 0);  // any direction
     Ray ray = ray_to(std::string(1, static_cast<char>('a' + i)), place, at, sigma_rad);
     if (random != nullptr) {
       const double x = sigma_rad * normal(*random), y = sigma_rad * normal(*random);

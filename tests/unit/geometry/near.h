@@ -1,5 +1,5 @@
-// Asserts that two matrices are equal within a tolerance per element, and prints them if they are
-// not.
+// Asserts that two matrices are equal within a tolerance per element, and prints them if they
+// differ.
 #pragma once
 
 #include <gtest/gtest.h>

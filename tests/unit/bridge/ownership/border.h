@@ -1,6 +1,6 @@
 // For the tests of ownership: two regions, each with an active and a standby fusion, and a target
-// that crosses the border of the regions. A store keeps the owners; it may answer late or never, to
-// all nodes or to one of them.
+// that crosses the border of the regions. The store of owners may answer late or never, either to
+// all nodes or only to one.
 #pragma once
 
 #include <cmath>

@@ -30,7 +30,7 @@ inline StationSettings settings() {
   return settings;
 }
 
-// A diagonal covariance as CSV; the i-th variance is i times `scale`, from 1.
+// A diagonal covariance as CSV; the i-th variance is i times `scale`, with i from 1.
 inline std::string covariance_text(double scale) {
   std::ostringstream out;
   out << "parameter";

@@ -20,7 +20,7 @@ struct Line {
 struct Chip {
   std::string path = "/dev/gpiochip9";
   int lines = 32;
-  bool gone = false;     // after it was opened
+  bool gone = false;     // the chip has disappeared after it was opened
   bool refuses = false;  // refuses requests as busy
   int open = 0;          // how many times it is open
   std::map<int, Line> requested;

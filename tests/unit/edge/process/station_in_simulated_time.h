@@ -94,7 +94,7 @@ class StationInSimulatedTime : public testing::Test {
   StationSettings settings_of(const std::string& station) const {
     StationSettings settings = load_station_settings(folder_ / (station + ".toml"));
     settings.video.address.clear();
-    settings.host.silence_s = 1e9;  // the monitor reads this host, in this host's time
+    settings.host.silence_s = 1e9;  // the monitor measures the real host, in real time
     return settings;
   }
 
@@ -144,7 +144,7 @@ class StationInSimulatedTime : public testing::Test {
   ols_msg::station_status_t status_{};
   std::optional<ols_msg::command_reply_t> reply_;
   std::int64_t sequence_ = 0;
-  double tilt_rad_ = 0.0;  // tilt of orders to point
+  double tilt_rad_ = 0.0;  // of the orders to point
   std::optional<sim::SimulatedStation> station_;
 };
 

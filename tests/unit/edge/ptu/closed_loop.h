@@ -33,7 +33,7 @@ class ClosedLoop {
              double power_up_s = 10.0)
       : unit(unit_config, 7, power_up_s), driver(driver_config), time_s(power_up_s) {}
 
-  // One millisecond.
+  // Advances the time by one millisecond.
   void tick() {
     time_s += kTick_s;
     const double now_s = time_s;
