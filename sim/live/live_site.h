@@ -22,7 +22,7 @@ namespace ols::sim {
 
 class LiveSite {
  public:
-  // At the construction, the scenario's time is 0, and true UTC is that of the host's clock.
+  // At construction, the scenario's time is 0, and true UTC is the UTC of the host's clock.
   // Afterwards both advance with the monotonic clock: a step of the host's clock does not move the
   // targets. `line_folder`: folder of the links to the serial lines. Throws std::system_error if an
   // address or a link is not available.

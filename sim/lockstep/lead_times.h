@@ -24,6 +24,8 @@ struct LeadTimes {
   bool complete() const { return follows.size() == stations; }
 };
 
+// note() records what station `id` has reached; note_position() records that the fusion has a
+// position. Call both regularly. `after_s`: time since the click or cue.
 void note(LeadTimes& times, Lockstep& lockstep, const std::string& id, double after_s);
 void note_position(LeadTimes& times, const Lockstep& lockstep, double after_s);
 

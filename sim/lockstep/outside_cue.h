@@ -19,8 +19,8 @@ struct OutsideCueConfig {
   double patience_s = 20.0;
 };
 
-// The scenario must have one target. With pictures, ten seconds of four stations take two
-// processors a minute.
+// The scenario must have one target. With pictures, two processors need a minute for ten seconds of
+// four stations.
 LeadTimes cue_from_outside(const Scenario& scenario, std::uint64_t seed,
                            const OutsideCueConfig& config);
 

@@ -16,8 +16,8 @@ struct ClickConfig {
   double patience_s = 20.0;
 };
 
-// The scenario must have an overview station and a target. With pictures, ten seconds of five
-// stations take two processors a minute. Throws std::runtime_error if the click finds nothing.
+// The scenario must have an overview station and a target. With pictures, two processors need a
+// minute for ten seconds of five stations. Throws std::runtime_error if the click finds nothing.
 LeadTimes click_in_overview(const Scenario& scenario, std::uint64_t seed,
                             const ClickConfig& config);
 

@@ -1,4 +1,4 @@
-// The simulated PTU's settings that the command DS saves.
+// Those settings of the simulated PTU that its command DS saves.
 #pragma once
 
 #include <array>

@@ -21,7 +21,8 @@ struct Fault {
 
 std::vector<std::string> fault_kinds();
 
-// What is wrong with a fault, and the key concerned; both are empty for a valid fault.
+// What is wrong with a fault, and the key of the scenario that is wrong; both are empty for a valid
+// fault.
 struct FaultProblem {
   std::string key, what;
 };

@@ -113,8 +113,8 @@ struct TargetScenario {
   double brightness = 0.22;  // 0: black; 1: as bright as the sky
 };
 
-// How the stations find their headings: by sighting other stations or landmarks, or not at all
-// (kDrawn: the errors of the headings are drawn by errors.heading).
+// How the stations find their headings: by sighting other stations or landmarks, or not at all.
+// With kDrawn, the errors of the headings are drawn at random (errors.heading).
 enum class StationingBy { kDrawn, kEachOther, kLandmarks };
 
 // With errors.heading off, the landmarks and the operator's marks are exact.

@@ -2,8 +2,8 @@
 // Written without the product's code; the product has at most a model of this land (land_model.h).
 // Pure.
 //
-// Places are metres east and north in the site's frame. Heights are ellipsoidal, minus that of the
-// site's origin: level ground has height 0 everywhere.
+// Places are metres east and north in the site's frame. Heights are ellipsoidal heights minus the
+// height of the site's origin: level ground has height 0 everywhere.
 #pragma once
 
 #include <Eigen/Core>

@@ -19,7 +19,7 @@ class AnswerBox {
   // Takes an answer from the bus. Ignores it if it is old, repeated, not to the current question,
   // or out of range. `now_utime_us`: this host's UTC.
   void hear(const ols_msg::procedure_answer_t& answer, std::int64_t now_utime_us);
-  // True once for each abort.
+  // Returns true once for each abort.
   bool take_abort() { return std::exchange(is_aborted_, false); }
   // The answer to this question, once.
   std::optional<Answer> take(std::int64_t question);

@@ -25,7 +25,7 @@ class ProcedureSession {
   // file and line.
   void resume();
   bool is_replaying() const { return !replay_.empty(); }
-  // True, once, if the next recorded event was a resumption.
+  // Returns true, once, if the next recorded event is a resumption.
   bool take_resumed();
   // The time [us] of the order whose result is replayed next. nullopt: there is no such order, or
   // the journal states no time.

@@ -66,7 +66,7 @@ class StationLink {
   // Turns the unit at these rates for a moment. For a longer motion, call it again at least every
   // 0.3 s. The link must have pointed the unit before.
   void turn_at(const PanTilt& rate_rad_s);
-  // Why the station refused the last order to turn, in words; empty: it has not refused.
+  // Why the station refused the last order to turn, in words; empty: it did not refuse.
   const std::string& refusal() const { return refusal_; }
   // Whether the refusal is final. If the unit does not answer, the refusal is not final: its line
   // may only be interrupted. If the unit has lost its reference after a power cut, it is final.
@@ -86,7 +86,7 @@ class StationLink {
   const AwaitedPicture& awaited() const { return awaited_; }
 
   void publish(ols_msg::procedure_t message);
-  // True, once, if a console has asked for an abort of the procedure.
+  // Returns true, once, if a console has asked for an abort of the procedure.
   bool take_abort() { return answers_.take_abort(); }
   // A console's answer to this question; discards other answers.
   std::optional<Answer> take_answer(std::int64_t question) { return answers_.take(question); }

@@ -9,8 +9,8 @@
 namespace ols::doctor {
 
 // Listens for `seconds`. Never throws: the result contains the error. The station `own` is always
-// reported if its status arrives, even among many forged stations. Without a trust list, first
-// waits for one.
+// reported if its status arrives, even among many forged stations. If there is no trust list yet,
+// first waits for one.
 BusFacts listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
                 const std::string& own = "");
 

@@ -18,8 +18,8 @@ namespace ols::exporter {
 
 class SiteMetrics {
  public:
-  // Max number of stations. A station that is silent for kForget_s is forgotten, but still reported
-  // as enrolled: alerts about it do not end.
+  // Max number of stations. A station that is silent for kForget_s is forgotten. It is still
+  // reported as enrolled, so that alerts about it do not end.
   static constexpr std::size_t kMostStations = 1000;
   static constexpr double kForget_s = 86400.0;
   // Max number of names (readings, counters, devices) per message.

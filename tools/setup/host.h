@@ -38,7 +38,7 @@ std::vector<std::string> running(const std::vector<std::string>& units);
 std::vector<std::string> readers(const std::vector<std::string>& units,
                                  const std::vector<std::string>& changed);
 
-// Why a host does not work after its setup; empty if it does. `doctor`: exit status of ols-doctor.
+// Why a host does not work after its setup; empty: it works. `doctor`: exit status of ols-doctor.
 // Pure.
 std::string trouble(const std::vector<std::string>& not_started, int doctor);
 

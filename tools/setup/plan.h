@@ -41,7 +41,7 @@ bool has_mount(const Values& values);
 // `url`.
 bool wants_onvif(const Values& values);
 
-// Adds a value that was found as if it were an answer. Never replaces an answer.
+// Adds a value that ols-setup has found, in the form of an answer. Never replaces an answer.
 void add(Values& values, const std::string& key, const std::string& text);
 
 }  // namespace ols::setup

@@ -15,7 +15,7 @@ inline constexpr std::int64_t kNight_us = 1'780'000'000'000'000;  // 2026-05-28,
 
 struct NightSky {
   StationModel truth;
-  StationPrior station;  // the prior: another heading, and no errors
+  StationPrior station;  // the prior, which has another heading and no errors
   std::vector<StarFrame> frames;
   // HIP number of each detection; 0: a false detection.
   std::vector<std::vector<std::int32_t>> stars;
