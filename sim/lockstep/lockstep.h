@@ -58,7 +58,7 @@ class Lockstep {
   void run(double duration_s);
   // The station of this name, which must exist.
   LockstepStation& station(const std::string& id) { return *stations_.at(index_of(id)); }
-  // Passes a cue from outside to the fusion; allow_cue(): the operator allows it.
+  // Passes a cue from outside to the fusion. allow_cue(): the operator allows the cue.
   void hear(const fusion::Cue& cue, double time_s);
   bool allow_cue(const std::string& id) { return fusion_.allow_cue(id, true); }
   const fusion::Fusion& fusion() const { return fusion_; }

@@ -28,8 +28,9 @@ EstimatorSummary summarise(const std::vector<Fix>& fixes);
 BoundSummary summarise_bound(const World& world, const std::vector<Fix>& fixes,
                              const MeasurementNoise& noise, std::size_t stride = 10);
 
-// Errors of the measured pixels, per coordinate, of all frames in which a station tracks: the mean
-// of each station (root mean square over the stations), and the white part about it.
+// Errors of the measured pixels, per coordinate, in all frames in which a station tracks.
+// `mean_px`: root mean square of the stations' mean errors. `white_sd_px`: standard deviation about
+// each station's mean.
 struct PixelSummary {
   double white_sd_px = 0.0;
   double mean_px = 0.0;

@@ -19,7 +19,8 @@ struct StarCells {
   double parallax_mas = 0.0;
 };
 
-// A star (without a place), a surveyed point, or, with a time, one position of a trajectory.
+// A star (then `place` is not used), a surveyed point, or, with a time, one position of a
+// trajectory.
 struct ReferenceRow {
   std::string name;
   std::optional<StarCells> star;

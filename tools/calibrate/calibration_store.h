@@ -38,9 +38,9 @@ class CalibrationStore {
   CalibrationStore& operator=(const CalibrationStore&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
-  // Allows only one procedure at a time. Throws std::runtime_error if another one is running.
-  // Renames the folders of procedures that have died as interrupted, and returns their new names.
-  // If a loss of power has interrupted a decision, completes it.
+  // Allows only one procedure at a time. Throws std::runtime_error if another one is running. If
+  // procedures have died, renames their folders to interrupted ones and returns the new names. If a
+  // loss of power has interrupted a decision, completes it.
   std::vector<std::filesystem::path> lock();
 
   // Creates the folder of a running procedure.
@@ -49,7 +49,7 @@ class CalibrationStore {
   std::filesystem::path interrupt(const std::filesystem::path& running);
   // The folders of interrupted procedures, oldest first.
   std::vector<std::filesystem::path> interrupted() const;
-  // Makes one of them a running procedure again; returns its new name.
+  // Makes an interrupted procedure a running one again; returns the folder's new name.
   std::filesystem::path resume(const std::filesystem::path& interrupted);
   // Renames the folder to its calibration's id, after everything is on disk. Throws
   // std::runtime_error if the id exists.

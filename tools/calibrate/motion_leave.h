@@ -4,8 +4,8 @@
 // A procedure's commands to point and to release end a stop, as an operator's own commands do. But
 // a procedure must never end a person's stop. A status that shows no stop may have been sent just
 // before a stop. After a stop, the station therefore refuses both commands for
-// StationMode::kStopHold_s. A command that relies on a status younger than kReliedOn_s arrives
-// within that time, and is refused.
+// StationMode::kStopHold_s. If such a stop has happened, a command that relies on a status younger
+// than kReliedOn_s arrives within that time and is refused.
 #pragma once
 
 #include "ols_msg/station_status_t.hpp"
