@@ -36,9 +36,10 @@ CameraIntrinsics between(const CameraIntrinsics& a, const CameraIntrinsics& b, d
   camera.fx_px = log_between(a.fx_px, b.fx_px, share);
   camera.fy_px = log_between(a.fy_px, b.fy_px, share);
   using Field = double CameraIntrinsics::*;
-  for (const Field field : {&CameraIntrinsics::cx_px, &CameraIntrinsics::cy_px,
-                            &CameraIntrinsics::skew, &CameraIntrinsics::k1, &CameraIntrinsics::k2,
-                            &CameraIntrinsics::p1, &CameraIntrinsics::p2, &CameraIntrinsics::k3}) {
+  for (const Field field :
+       {&CameraIntrinsics::cx_px, &CameraIntrinsics::cy_px, &CameraIntrinsics::skew,
+        &CameraIntrinsics::k1, &CameraIntrinsics::k2, &CameraIntrinsics::p1, &CameraIntrinsics::p2,
+        &CameraIntrinsics::k3, &CameraIntrinsics::k4}) {
     camera.*field = between(a.*field, b.*field, share);
   }
   return camera;

@@ -26,7 +26,7 @@ class ZoomTable {
 
   // The camera at a zoom position. position_sd: 1-sigma of the position. Between the points, the
   // logarithm of the focal length is interpolated linearly, and so are the principal point, the
-  // skew and the coefficients k1, k2, p1, p2 and k3. Each deviation is the larger of those at the
+  // skew and the coefficients of distortion. Each deviation is the larger of those at the
   // two neighbouring points. The deviation of the focal length also includes the error of the
   // interpolation (from the change of slope between neighbouring intervals) and the effect of
   // position_sd. Outside the table, the values of the nearest point are used.

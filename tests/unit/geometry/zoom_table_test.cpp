@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,6 +27,23 @@ TEST(ZoomTable, BetweenItsPointsTheFocalLengthGoesByItsLogarithm) {
   EXPECT_NEAR(half.focal_sd_px, 4000.0 * 2e-3, 1e-9) << "the worse neighbour's share";
   EXPECT_EQ(half.centre_sd_px, 1.0);
   EXPECT_NEAR(table.at(0.25, 0.0).camera.fy_px, 2000.0, 1e-9);
+}
+
+TEST(ZoomTable, EveryCoefficientIsInterpolated) {
+  ZoomPoint wide = point(0.0, 1000.0), narrow = point(1.0, 16000.0);
+  const auto coefficients = [](CameraIntrinsics& camera) {
+    return std::array{&camera.cx_px, &camera.cy_px, &camera.skew, &camera.k1, &camera.k2,
+                      &camera.p1,    &camera.p2,    &camera.k3,   &camera.k4};
+  };
+  double value = 0.0;
+  for (double* one : coefficients(wide.camera)) *one = value += 1.0;
+  for (double* one : coefficients(narrow.camera)) *one = value += 3.0;
+  ZoomPoint half = ZoomTable({wide, narrow}).at(0.5, 0.0);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_NEAR(*coefficients(half.camera)[i],
+                0.5 * (*coefficients(wide.camera)[i] + *coefficients(narrow.camera)[i]), 1e-9)
+        << i;
+  }
 }
 
 TEST(ZoomTable, APositionsErrorIsAFocalLengthsError) {
