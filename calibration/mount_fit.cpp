@@ -125,4 +125,10 @@ std::optional<MountFit> fit_mount(std::vector<MountReading> readings) {
   return is_useful(fit) ? std::optional(fit) : std::nullopt;
 }
 
+bool have_different_delays(const MountFit& a, const MountFit& b) {
+  constexpr double kSigmas = 3.0, kSame_s = 0.02;
+  const double apart_s = std::abs(a.delay_s.value - b.delay_s.value);
+  return apart_s > kSigmas * std::hypot(a.delay_s.sd, b.delay_s.sd) + kSame_s;
+}
+
 }  // namespace ols::calibration

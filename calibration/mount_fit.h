@@ -38,4 +38,8 @@ struct MountFit {
 // if the result is too uncertain.
 std::optional<MountFit> fit_mount(std::vector<MountReading> readings);
 
+// Whether the delays of a mount's axes differ by more than 3 sigma and 20 ms. A mount reports both
+// axes at once, so they have one delay: pictures of one of them came with wrong times.
+bool have_different_delays(const MountFit& a, const MountFit& b);
+
 }  // namespace ols::calibration

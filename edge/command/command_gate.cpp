@@ -37,7 +37,7 @@ std::optional<GateRefusal> CommandGate::admit(const CommandStamp& stamp,
 }
 
 // A clock that was set back by more than the longest freshness must not block all commands until it
-// catches up: what was forgotten may pass once more, as after a restart.
+// catches up: what was forgotten may pass once more.
 void CommandGate::look_at_clock(std::int64_t now_utime_us) {
   const double back_s =
       (static_cast<double>(latest_utime_us_) - static_cast<double>(now_utime_us)) * 1e-6;

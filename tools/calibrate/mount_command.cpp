@@ -54,6 +54,15 @@ void set(setup::Values& values, const std::string& key, double number) {
   values.emplace_back(key, text);
 }
 
+void check(const MountResult& result) {
+  if (!result.pan.fit && !result.tilt.fit) throw std::runtime_error("nothing could be measured");
+  if (result.pan.fit && result.tilt.fit && have_different_delays(*result.pan.fit, *result.tilt.fit))
+    throw std::runtime_error(
+        "the delays of pan and tilt contradict each other, although both are reported at once: "
+        "pictures came with wrong times. Measure again while the computer and the network are "
+        "idle");
+}
+
 // Both axes are reported at once, so they have one delay.
 Measured common_delay(const std::vector<const MountFit*>& fits) {
   double weights = 0.0, sum = 0.0, apart = 0.0;
@@ -164,7 +173,7 @@ int run_mount(const MountOptions& o) {
   const MountResult result = MountRun(station, bus).measure();
   std::printf("%s\n%s\n", said("pan", result.pan).c_str(), said("tilt", result.tilt).c_str());
   std::fflush(stdout);
-  if (!result.pan.fit && !result.tilt.fit) throw std::runtime_error("nothing could be measured");
+  check(result);
   const setup::Values now = corrected(before, result);
   for (const auto& [key, value] : now) {
     const std::string* old = setup::find(before, key);

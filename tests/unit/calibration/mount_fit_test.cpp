@@ -52,6 +52,20 @@ TEST(MountFit, GainDelayAndBacklashAreFoundWithTheirErrors) {
   EXPECT_GT(within, 0.85 * all);
 }
 
+TEST(MountFit, DelaysOfTwoAxesThatContradictEachOtherAreNoticed) {
+  const auto delayed = [](double delay_s, std::uint64_t seed) {
+    return *fit_mount(readings_of({1.0, 0.0, delay_s}, seed));
+  };
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    EXPECT_FALSE(have_different_delays(delayed(0.25, seed), delayed(0.25, seed + 100)));
+    EXPECT_TRUE(have_different_delays(delayed(0.25, seed), delayed(0.20, seed + 100)));
+  }
+  MountFit unsure = delayed(0.25, 1);
+  unsure.delay_s.sd = 0.05;
+  EXPECT_FALSE(have_different_delays(unsure, delayed(0.15, 2)));
+}
+
 TEST(MountFit, WithoutMotionOrFromOneSideLessIsSaid) {
   std::vector<MountReading> all = readings_of({1.0, 0.0, 0.1}, 1);
   auto rests = all;
