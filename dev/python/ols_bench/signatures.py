@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from ols_demo import evaluate, recording
-from ols_demo.__main__ import DESIGNATION_S, Run
+from ols_demo.__main__ import PATIENCE_S, Run
 from ols_demo.site import Site, bring_up_loopback
 from ols_demo.wiring import Wiring
 
@@ -49,7 +49,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=23.0, help="of each run [s]")
     parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
     options = parser.parse_args()
-    options.headless, options.patience = True, DESIGNATION_S
+    options.headless, options.patience = True, PATIENCE_S
     options.bin = ROOT / "build/release/bin"
     options.scenario = ROOT / "sim/scenarios/fig7.toml"
     print(f"load before: {os.getloadavg()[0]:.2f}; seed {options.seed}")

@@ -73,6 +73,7 @@ class Drive {
   void lost();  // call when the connection is lost
 
   void set_goal(const std::optional<Goal>& goal);
+  bool has_goal() const { return goal_.has_value(); }
   void emergency_halt();
   void clear_emergency() { emergency_ = false; }
   bool in_emergency() const { return emergency_; }

@@ -51,7 +51,6 @@ double utc_s(double monotonic_s) {
   return 1e-9 * static_cast<double>(clock_utc_ns()) + monotonic_s - clock_monotonic_s();
 }
 
-// A telescope that was parked, by a person or because of the weather, is left alone.
 bool is_put_away(const Heard& heard) { return heard.is_parked || heard.parks; }
 
 bool wait_until(const IndiLink& link, mount::SharedDrive& shared, double within_s,
@@ -84,12 +83,22 @@ Heard IndiSession::connect(IndiLink& link, mount::SharedDrive& shared,
   link.set_interval(config_.drive.poll_s);
   need("the telescope reports no position or no place",
        [](const Heard& h) { return h.position && h.observer; });
-  if (link.heard().is_parked && !was_unparked_ && !stop.stop_requested()) {
-    link.unpark();
-    need("the telescope stays parked", [](const Heard& h) { return !h.is_parked; });
-  }
-  was_unparked_ = true;
+  if (!may_unpark_) may_unpark_ = link.heard().is_parked;
   return link.heard();
+}
+
+// A telescope that is parked, by a person or because of the weather, is left alone, unless it was
+// parked before the first connection.
+bool IndiSession::is_left_alone(const Heard& heard) const {
+  return is_put_away(heard) && !may_unpark_.value_or(false);
+}
+
+void IndiSession::unpark(IndiLink& link, mount::SharedDrive& shared, const std::stop_token& stop) {
+  may_unpark_ = false;
+  link.unpark();
+  const auto is_unparked = [](const Heard& h) { return !h.is_parked; };
+  if (!wait_until(link, shared, kPatience_s, stop, is_unparked) && !stop.stop_requested())
+    throw IndiError("the telescope stays parked: " + link.heard().message);
 }
 
 void IndiSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
@@ -129,14 +138,18 @@ void IndiSession::serve(IndiLink& link, mount::SharedDrive& shared, device::Devi
     if (!now.is_connected) throw IndiError("the driver has lost the telescope: " + now.message);
     if (now_s - std::max(began_s, now.position_s) > kPatience_s)
       throw IndiError("the telescope reports no positions");
+    if (!now.is_parked) may_unpark_ = false;
     mount::Order order;
+    bool is_awaited = false;
     {
       const std::lock_guard lock(shared.mutex);
       if (now.position_s > taken_s_) thread.works();
       judge(now, shared);
       take_position(link, shared, now_s);
+      is_awaited = is_put_away(now) && !is_left_alone(now) && shared.drive.has_goal();
       if (!is_put_away(now) || shared.drive.in_emergency()) order = shared.drive.next(now_s);
     }
+    if (is_awaited) unpark(link, shared, stop);
     if (slews_since_s_ && !now.slews && now_s - *slews_since_s_ > kGoToBegins_s) {
       link.stop();  // or it would follow the stars from there
       slews_since_s_.reset();
@@ -174,9 +187,9 @@ void IndiSession::judge(const Heard& now, mount::SharedDrive& shared) {
   heard_ = now;
   if (pier_side_.empty()) pier_side_ = now.pier_side;
   const bool other_side = now.pier_side != pier_side_;
-  shared.usable = !is_put_away(now) && !other_side;
+  shared.usable = !is_left_alone(now) && !other_side;
   shared.alarms.clear();
-  if (is_put_away(now)) shared.alarms.push_back(alarm::ptu_parked());
+  if (is_left_alone(now)) shared.alarms.push_back(alarm::ptu_parked());
   if (other_side) shared.alarms.push_back(alarm::ptu_other_pier_side());
 }
 

@@ -27,13 +27,17 @@ class IndiSession : public mount::MountSession {
   void serve(IndiLink& link, mount::SharedDrive& shared, device::DeviceThread& thread,
              const std::stop_token& stop);
   void judge(const Heard& now, mount::SharedDrive& shared);
+  bool is_left_alone(const Heard& heard) const;
+  void unpark(IndiLink& link, mount::SharedDrive& shared, const std::stop_token& stop);
   void take_position(const IndiLink& link, mount::SharedDrive& shared, double now_s);
   void carry_out(IndiLink& link, const mount::Order& order, double now_s);
   PanTilt angles_at(double monotonic_s) const;
 
   const IndiConfig config_;
-  std::string pier_side_;      // as configured, or as first reported
-  bool was_unparked_ = false;  // the telescope is unparked only at the first connection
+  std::string pier_side_;  // as configured, or as first reported
+  // Whether the telescope has been parked since the first connection, so that the first goal
+  // unparks it; nullopt before that connection.
+  std::optional<bool> may_unpark_;
   Heard heard_;
   double taken_s_ = 0.0;                 // time of the newest position that the drive has taken
   std::optional<double> slews_since_s_;  // when the slew to an ordered position began

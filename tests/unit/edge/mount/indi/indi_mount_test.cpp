@@ -186,6 +186,34 @@ TEST(IndiMount, StopsWhatItFindsInMotion) {
   EXPECT_TRUE(eventually([&] { return watched.speed_deg_s(0.3) < 0.01; }, 3.0));
 }
 
+// A doctor connects, too, and must move nothing.
+TEST(IndiMount, AParkedTelescopeIsUnparkedByTheFirstGoal) {
+  const Server server(7736);
+  const auto says = [](const std::string& property, const std::string& value) {
+    const std::string name = kTelescope + ("." + property);
+    const auto text = command_output({"indi_getprop", "-1", "-p", "7736", "-t", "1", name}, 10.0);
+    return text && text->starts_with(value);
+  };
+  const auto set = [](const std::string& what) {
+    return command_output({"indi_setprop", "-p", "7736", kTelescope + ("." + what)}, 10.0)
+        .has_value();
+  };
+  ASSERT_TRUE(eventually([&] { return set("CONNECTION.CONNECT=On"); }));
+  ASSERT_TRUE(eventually([&] { return says("CONNECTION.CONNECT", "On"); }));
+  ASSERT_TRUE(set("TELESCOPE_PARK.PARK=On"));
+  ASSERT_TRUE(eventually([&] { return says("TELESCOPE_PARK._STATE", "Ok"); }, 60.0));
+  const auto mount_owner = mount_of(config_of(7736));
+  mount::Mount& mount = *mount_owner;
+  ASSERT_TRUE(eventually([&] { return is_trusted(mount) && !mount.take_samples().empty(); }));
+  EXPECT_TRUE(mount.report().alarms.empty());
+  EXPECT_TRUE(says("TELESCOPE_PARK.PARK", "On"));
+  mount::Goal goal;
+  goal.angles = {radians(20.0), radians(30.0)};
+  goal.valid_until_s = clock_monotonic_s() + 60.0;
+  mount.set_goal(goal);
+  EXPECT_TRUE(eventually([&] { return says("TELESCOPE_PARK.UNPARK", "On"); }));
+}
+
 TEST(IndiMount, LeavesItAloneWhereOthersHavePutIt) {
   const Server server(7735);
   const auto mount_owner = mount_of(config_of(7735));
