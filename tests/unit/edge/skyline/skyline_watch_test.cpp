@@ -43,11 +43,9 @@ struct Stated {
 class SkylineWatchTest : public ::testing::Test {
  protected:
   SkylineWatchTest()
-      : site_(4),
-        truth_(site_.truth(), site_.camera(), quick_map()),
-        panorama_(landscape(), wide_camera(), sim::slopes_texture(landscape(), wide_camera()), 4),
+      : panorama_(landscape(), wide_camera(), sim::slopes_texture(landscape(), wide_camera()), 4),
         watch_(std::make_shared<land::MadeLand>(site_.model()), quick_map()) {
-    panorama_.raise([this](double azimuth_rad) {
+    panorama_.raise([](double azimuth_rad) {
       const auto skyline = truth_.skyline(azimuth_rad);
       return skyline ? skyline->elevation_rad : -0.5;
     });
@@ -88,7 +86,7 @@ class SkylineWatchTest : public ::testing::Test {
   }
   // Stands before the land from now on, as high as this above its skyline.
   void build(double azimuth_deg, double width_deg, double high_rad) {
-    panorama_.raise([=, this](double azimuth_rad) {
+    panorama_.raise([=](double azimuth_rad) {
       const bool is_there =
           std::abs(wrap_pi(azimuth_rad - radians(azimuth_deg))) < radians(width_deg) / 2.0;
       const auto skyline = truth_.skyline(azimuth_rad);
@@ -110,8 +108,8 @@ class SkylineWatchTest : public ::testing::Test {
     return watch_.alarm().text.find(words) != std::string::npos;
   }
 
-  MadeSite site_;
-  land::HorizonMap truth_;
+  static inline const MadeSite site_{4};
+  static inline const land::HorizonMap truth_{site_.truth(), site_.camera(), quick_map()};
   sim::Panorama panorama_;
   SkylineWatch watch_;
   double time_s_ = 0.0;
