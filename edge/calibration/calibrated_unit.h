@@ -29,9 +29,9 @@ class CalibratedUnit {
     return corrected_angles(calibration_.model, reading);
   }
   // The angles that the unit reports when it points in the direction of the ideal angles
-  // `corrected`, after it has moved there directly from `here`, which it reached by `approach`.
-  // `corrected` must include whole turns of the pan axis, because the unit approaches angles a
-  // whole turn apart from different sides.
+  // `corrected`. It has moved there directly from the reported angles `here`, to which it had come
+  // from the directions in `approach`. `corrected` must include whole turns of the pan axis,
+  // because the unit approaches angles a whole turn apart from different sides.
   PanTilt reported(const PanTilt& corrected, const PanTilt& here,
                    const mount::Approach& approach) const;
 

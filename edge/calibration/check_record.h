@@ -20,7 +20,7 @@ class CheckRecord {
   void note_unrecognised() { reason_ = "its reference views are not recognised"; }
   // Notes that a round gave no result, because it left out too many views near the sun.
   void note_sun() { reason_ = "the sun stands in its reference views"; }
-  // Notes in how many consecutive rounds the unit did not reach a view in time.
+  // Notes the number of consecutive rounds in which the unit did not reach a view in time.
   void note_late(int rounds);
   // Notes that travel limits and keep-out regions leave too few views for a check.
   void note_too_few() { too_few_ = true; }

@@ -25,7 +25,7 @@ class ReferenceViews {
  public:
   struct Config {
     std::string
-        folder;  // of the persisted state; if empty, pictures and findings end with the process
+        folder;  // of the persisted state; if empty, pictures and findings are lost at process end
     std::string station;
     std::int64_t calibration_id = 0;
     ViewTour::Config tour;
@@ -56,8 +56,8 @@ class ReferenceViews {
   std::vector<Alarm> alarms() const;
 
  private:
-  // The result of processing a picture: its offset from the stored picture. If none was stored, the
-  // picture itself, which is now stored.
+  // The result of processing a picture: its offset from the stored picture of this view. If no
+  // picture of the view was stored, the result is the picture itself, which is then stored.
   struct Seen {
     std::optional<ViewOffset> offset;
     cv::Mat picture;

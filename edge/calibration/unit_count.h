@@ -7,7 +7,7 @@ namespace ols::station {
 
 // The exact size of a count [rad].
 double count_of(const AxisModel& axis);
-// Whether the size of a count that a unit reports, `printed_rad`, matches the number of counts per
+// Whether `printed_rad`, the size of a count that a unit reports, matches the number of counts per
 // turn of this axis. If it does, the step mode is that of the calibration.
 bool is_count_of(const AxisModel& axis, double printed_rad);
 

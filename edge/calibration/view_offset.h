@@ -15,9 +15,9 @@ struct View {
   PanTilt reported;
 };
 
-// The turn from `stored` to `seen`, apart from the difference of the reported angles. nullopt if
-// the stored picture is not recognised. `angle_sd_rad`: 1-sigma of each angle at a stop of the
-// unit.
+// How far the camera has turned from `stored` to `seen`, minus the difference of the reported
+// angles. nullopt if the stored picture is not recognised. `angle_sd_rad`: 1-sigma of each angle at
+// a stop of the unit.
 std::optional<ViewOffset> offset_of(const View& stored, const View& seen,
                                     const StationGeometry& geometry, double angle_sd_rad);
 
