@@ -47,8 +47,9 @@ class AutoExposure {
   std::optional<ExposureSetting> step(const PictureLevels& levels);
   void applied(const ExposureSetting& setting) { setting_ = setting; }
 
-  // The factor by which the light would have to change beyond the limits of exposure and gain: > 1
-  // if the image remains too dark, < 1 if it remains too bright, 1 if the limits suffice.
+  // The factor by which the image should still become brighter when exposure and gain have reached
+  // their limits: > 1 if the image remains too dark, < 1 if it remains too bright, 1 if the limits
+  // suffice.
   double missing_factor() const { return missing_; }
 
  private:

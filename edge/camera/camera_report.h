@@ -28,7 +28,8 @@ struct CameraCounters {                 // they only increase
   std::uint64_t frames_captured = 0;    // complete frames with the configured size and format
   std::uint64_t frames_lost = 0;        // frames missing in the camera's numbering
   std::uint64_t frames_incomplete = 0;  // frames with missing packets
-  std::uint64_t frames_late = 0;  // captured frames that were replaced by a newer one before next()
+  // Captured frames that a newer one replaced before next() returned them.
+  std::uint64_t frames_late = 0;
   std::uint64_t frames_refused = 0;  // frames of wrong size or format
   // Number of times that the camera was opened again, after the first time.
   std::uint64_t reconnects = 0;

@@ -19,8 +19,8 @@ struct FrameTime {
   StampSource source = StampSource::kCamera;
 };
 
-// Converts TAI, the time of a PTP slave, to the station's monotonic clock. It is computed from the
-// station's UTC and the leap seconds.
+// Converts TAI, the time of a PTP slave, to the station's monotonic clock. The difference of the
+// two is computed from the station's UTC and the leap seconds.
 struct TaiReference {
   std::int64_t monotonic_minus_tai_ns = 0;
   double sd_s = 0.0;  // 1-sigma of the station's UTC and of the PTP master's time together

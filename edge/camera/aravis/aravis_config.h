@@ -49,9 +49,9 @@ struct AravisConfig : CameraConfig {
   // the camera paces them or the socket's buffer is large.
   bool packet_socket = false;
   int socket_buffer = 8 << 20;  // [byte] requested; the kernel grants up to net.core.rmem_max
-  // The pause between two packets. If -1, it is chosen automatically. There is no pause if the
-  // socket's buffer holds three frames. Otherwise, the packets of a frame are spread over the share
-  // packet_spread of the frame period.
+  // The time from the start of a packet to the start of the next one. If -1, it is chosen
+  // automatically. The automatic choice is no delay if the socket's buffer holds three frames.
+  // Otherwise, the packets of a frame are spread over the share packet_spread of the frame period.
   double packet_delay_us = -1.0;
   double packet_spread = 0.6;
   bool packet_resend = true;  // request lost packets again if the camera can repeat them

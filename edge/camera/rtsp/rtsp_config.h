@@ -23,8 +23,8 @@ struct RtspConfig : CameraConfig {
   double frozen_s = 20.0;  // reconnect if the picture has not changed for this time; 0 for never
   // Reconnect if no picture has come for this time plus two frame periods.
   double no_frame_timeout_s = 5.0;
-  // The same until the first picture. It is longer, because decoding starts at a key frame, and
-  // some cameras send one only every ten seconds.
+  // The same limit before the first picture. This limit is longer, because decoding starts at a key
+  // frame, and some cameras send a key frame only every ten seconds.
   double first_frame_timeout_s = 20.0;
   bool keep_raw = false;
 };
