@@ -21,7 +21,7 @@ struct ChronyTracking {
   double error_s() const;
 };
 
-// nullopt if the line's form is different, for example without chronyd: "506 Cannot talk to
+// nullopt if the line has another form. If chronyd does not run, the line is "506 Cannot talk to
 // daemon".
 std::optional<ChronyTracking> parse_chrony_tracking(std::string_view line);
 

@@ -2,9 +2,9 @@
 //
 // If chrony runs, the reading is chrony's state: without `rtcsync`, chrony does not set the
 // kernel's flag "synchronised". Without chrony, the reading is the kernel's state:
-// systemd-timesyncd, ntpd and ptp4l/phc2sys maintain the flag. Even a time service that has ended
-// leaves traces in the kernel: a frequency correction, an error estimate or an active phase-locked
-// loop.
+// systemd-timesyncd, ntpd and ptp4l/phc2sys maintain the flag. A time service that has ended is
+// recognised by its traces in the kernel: a frequency correction, an error estimate or an active
+// phase-locked loop.
 #pragma once
 
 #include <optional>

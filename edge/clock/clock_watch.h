@@ -3,19 +3,20 @@
 //
 //  - synchronised: a time service states that the clock is synchronised. The error is the service's
 //    own estimate.
-//  - unsynchronised: a time service has run since boot, but it is not synchronised (any more), or
-//    there has been no reading for a while. The error grows from its last good value, by the drift
-//    of a free-running clock. The state is the same after a step of the clock that no service has
-//    confirmed.
+//  - unsynchronised: a time service has run since boot, but the clock is not synchronised (any
+//    more), or there has been no reading for a while. The error grows from its last good value, by
+//    the drift of a free-running clock. The state is the same after a step of the clock that no
+//    service has confirmed.
 //  - unknown: there is no trace of a time service since boot. A person has set the clock, more or
-//    less accurately. The error is assumed_sd_s. The fusion compares the clocks of the stations.
+//    less accurately. The error is assumed_sd_s. The fusion checks this assumption by comparing the
+//    clocks of the stations.
 //
 // A step is a jump of CLOCK_REALTIME relative to CLOCK_MONOTONIC. The slow slewing by a service and
 // an announced leap second are not steps. A suspend of the computer looks like a step and is
 // treated as one, because afterwards the time comes from the battery clock. A service confirms a
 // step when it has measured again and states that it is synchronised. Without any service, the
-// clock is distrusted for `distrust_s` after a step. Then the state is unknown again, because the
-// station cannot decide whether the old or the new time was right.
+// clock is distrusted for `distrust_s` after a step. After that time, the state is unknown again,
+// because the station cannot decide whether the time before or after the step is right.
 #pragma once
 
 #include <cstdint>
@@ -65,8 +66,8 @@ class ClockWatch {
   };
   explicit ClockWatch(const Config& config) : config_(config) {}
 
-  // Call in every turn (cycle) of the control loop, so that a step is noticed before the next
-  // frame's time is computed. Both clocks must be read at one instant, as by read_clock_pair().
+  // Call in every cycle of the control loop, so that a step is noticed before the next frame's time
+  // is computed. Both clocks must be read at one instant, as by read_clock_pair().
   void tick(double monotonic_s, std::int64_t utime_us);
   // Call for each reading of the time service.
   void add(const ClockReading& reading);
