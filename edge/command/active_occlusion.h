@@ -22,8 +22,8 @@ class ActiveOcclusion {
   const std::optional<OcclusionCommand>& command() const { return command_; }
   // The place where the target will reappear, as a slew; nullopt if it is unknown.
   std::optional<SlewCommand> exit() const;
-  // The goal of the mount: it waits at that place. nullopt if the place is unknown, or if the unit
-  // cannot point there.
+  // The goal of the mount: to point at the place where the target will reappear, and to wait.
+  // nullopt if the place is unknown, or if the unit cannot point there.
   std::optional<mount::Goal> goal(const PointingModel& pointing, double now_s) const;
 
  private:

@@ -36,7 +36,8 @@ class CommandGate {
     double clock_margin_s = 0.5;  // maximum difference between the two clocks
     double lease_max_s = 10.0;
     // This number of commands is always remembered, however old they are, because they would become
-    // fresh again if the clock were set back. It corresponds to the slews of four minutes.
+    // fresh again if the clock were set back. A station receives about this number of slews in four
+    // minutes.
     std::size_t kept = 4096;
     // Maximum number of remembered commands. Beyond it, the gate forgets commands that are still
     // fresh, and refuses others with the same or earlier stamps. To block other senders in this

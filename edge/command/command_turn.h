@@ -45,7 +45,7 @@ class CommandTurn {
   // The results of all designations since the last call.
   std::vector<Decision> take_decisions() { return std::exchange(decisions_, {}); }
 
-  // Number of designations that were dropped because of another one or a stop.
+  // Number of designations that were dropped because of another designation or a stop.
   std::uint64_t superseded() const { return superseded_; }
 
  private:

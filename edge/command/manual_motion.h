@@ -15,7 +15,8 @@ class ManualMotion {
   void turn(const RateCommand& command);
   void clear();
 
-  // Whether this rate arrives too late: a later rate from the same sender is already in force.
+  // Whether this rate arrives too late: a rate that the same sender has sent after it is already in
+  // force.
   bool overtakes(const RateCommand& command, double now_s) const;
 
   // nullopt means halt. A unit at speed v with deceleration a needs the time v/a to come to rest.

@@ -1,5 +1,5 @@
-// Decides where and how a slewed station searches. It searches for its own target by appearance, or
-// for any object that moves as the slew predicts. Pure.
+// Decides where and how a slewed station searches. The station searches for its own target by
+// appearance, or for any object that moves as the slew predicts. Pure.
 #pragma once
 
 #include <deque>

@@ -28,7 +28,7 @@ class StopLatch {
     seen_ = presses;
     return news;
   }
-  // Notes that a person at the station re-arms it. Call from the same thread as set().
+  // Notes that a person at the station re-arms the station. Call from the same thread as set().
   void rearm() { rearm_ = true; }
   bool take_rearm() { return rearm_.exchange(false); }
 

@@ -46,7 +46,7 @@ class Watch {
   std::size_t picture_ = 0;
   std::optional<double> stands_since_s_;
   double judged_s_ = -1e9;
-  int beyond_reach_ = 0, all_ = 0;  // numbers of pictures of the field
+  int beyond_reach_ = 0, all_ = 0;  // numbers of the field's pictures: out of reach; all
 };
 
 }  // namespace ols::station
