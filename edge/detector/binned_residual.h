@@ -13,9 +13,10 @@ class BinnedResidual {
   // [units] Standard deviation of the residual if the image is white noise of one grey level.
   static constexpr double kUnitsOfNoise = 20.0;
 
-  // Each bin is the mean of 4x4 pixels, weighted (1, 3, 3, 1) along both axes, minus the mean of
-  // such means over 9x9 bins. `gray`: 8-bit, one channel. The result is half as wide and high, in
-  // 1/64 of a grey level, CV_16S. The centre of bin (x, y) is pixel (2x + 0.5, 2y + 0.5).
+  // The value of each bin is the difference of two means. The first is the mean of 4x4 pixels,
+  // weighted (1, 3, 3, 1) along both axes. The second is the mean of these first means over 9x9
+  // bins. `gray`: 8-bit, one channel. The result is half as wide and high, in 1/64 of a grey level,
+  // CV_16S. The centre of bin (x, y) is pixel (2x + 0.5, 2y + 0.5).
   cv::Mat measure(const cv::Mat& gray);
 
  private:

@@ -12,10 +12,10 @@ class BoxResidual {
  public:
   static constexpr int kUnits = 64;  // units per grey level
 
-  // Computes the magnitude of a difference for each pixel: the mean of the 3x3 pixels there minus
-  // the mean of the 13x13 pixels around it, without the inner 7x7. The result is in 1/64 of a grey
-  // level, CV_16S; each mean is rounded down. `gray`: 8-bit, one channel. Beyond the image's edges,
-  // its outermost pixels are repeated.
+  // For each pixel, computes the magnitude of the difference of two means: that of the 3x3 pixels
+  // around it, and that of the ring between the 7x7 and the 13x13 pixels around it. The result is
+  // in 1/64 of a grey level, CV_16S; each mean is rounded down. `gray`: 8-bit, one channel. Beyond
+  // the image's edges, its outermost pixels are repeated.
   void measure(const cv::Mat& gray);
   const cv::Mat& image() const { return residual_; }
 

@@ -8,7 +8,7 @@ namespace ols::detector {
 
 enum class Evidence {
   kSpot,   // a compact spot against a smooth background, such as the sky
-  kMover,  // a part that differs from the aligned images of the last second
+  kMover,  // a part of the image that differs from the aligned images of the last second
   kStack,  // a point that is visible only in a sum of images, each shifted along the point's path
 };
 

@@ -28,7 +28,8 @@ class Detector {
 
   struct Result {
     std::vector<Detection> detections;  // of this image alone
-    // The whole image changed at once: movers and dim points were not searched for.
+    // True if the whole image changed at once. Then, neither movers nor dim points were searched
+    // for.
     bool suspended = false;
     std::optional<tracker::ImageMotion> motion;  // from the previous image; nullopt without texture
   };

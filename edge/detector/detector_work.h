@@ -23,7 +23,7 @@ struct Picture {
 struct Found {
   double mid_exposure_s = 0.0;
   std::vector<Tracklet> confirmed;  // includes objects that this picture does not show
-  // The whole image changed at once: movers and dim points were not searched for.
+  // True if the whole image changed at once. Then, neither movers nor dim points were searched for.
   bool suspended = false;
   // The motion of the image since the previous picture that was processed, whose mid-exposure is
   // `from_s`. nullopt without texture.

@@ -51,7 +51,7 @@ class DimFinder {
     double signal_to_noise;              // of the sum of the newest eight images
     bool brighter;
     long id = 0;         // 0: not followed yet
-    int unmeasured = 0;  // number of images since it was last measured or missed
+    int unmeasured = 0;  // number of images since the last attempt to measure it
     int misses = 0;      // number of consecutive misses
   };
   void remember(const cv::Mat& gray, double time_s, const std::optional<Eigen::Matrix3d>& motion);

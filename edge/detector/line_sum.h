@@ -29,8 +29,8 @@ class LineSum {
   double along_without_scene(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                              std::size_t images) const;
   // Like along_without_scene(), but for a texture that moves along with the point, such as a
-  // cloud's. There, sums along neighbouring parallel paths vary more than in white noise. If they
-  // do, the sum is divided by the standard deviation of those sums.
+  // cloud's. In such a texture, the sums along parallel paths nearby vary more than in white noise.
+  // If these sums show this, the result is divided by their root mean square.
   double along_without_texture(const Eigen::Vector2d& pixel, const Eigen::Vector2d& velocity_px,
                                std::size_t images) const;
 

@@ -15,10 +15,10 @@ struct Outline {
   Eigen::Vector2d sd_px = Eigen::Vector2d::Zero();  // 1-sigma that image noise causes
 };
 
-// `gray`: 8-bit, one channel. `centre`: where the object is. `extent_px`: its approximate longer
-// side. Returns nullopt in three cases: the object hardly stands out from its surroundings; it is
-// connected with something farther from `centre` than `extent_px`; or the edge of the image is
-// nearer than `extent_px`.
+// `gray`: 8-bit, one channel. `centre`: the object's approximate centre. `extent_px`: its
+// approximate longer side. Returns nullopt in three cases: the object hardly stands out from its
+// surroundings; it is connected with something farther from `centre` than `extent_px`; or the edge
+// of the image is nearer than `extent_px`.
 std::optional<Outline> outline_at(const cv::Mat& gray, const Eigen::Vector2d& centre,
                                   double extent_px);
 

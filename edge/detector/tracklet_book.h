@@ -14,8 +14,8 @@
 namespace ols::detector {
 
 struct TrackletConfig {
-  // Allowed number of false confirmations per hour, for the whole camera. (A confirmed tracklet is
-  // false if it is clutter.)
+  // Allowed number of false confirmations per hour, for the whole camera. (A confirmation is false
+  // if the tracklet is clutter.)
   double false_an_hour = 1.0;
   double detected = 0.8;  // probability that an object is detected in an image
   // Clutter repeats itself in successive images. Therefore, one detection adds at most this much to
@@ -26,7 +26,7 @@ struct TrackletConfig {
   // Noise produces such a detection on a given path only once in 250 tries.
   double stack_log_ratio = 4.0;
   double least_directness =
-      0.7;  // minimum distance from the start over path length, for objects against the ground
+      0.7;  // for objects against the ground: minimum of (distance from start) / (path length)
   double coast_s = 0.4;  // how long a confirmed tracklet is kept without detections
 };
 
