@@ -51,8 +51,8 @@ class DeviceThread {
   // Call once; do not call if the device is not configured.
   void start(Session session);
 
-  // The session calls opened() when it has opened the device, and works() when the device works;
-  // the next pause is then first_pause_s again.
+  // The session calls opened() when it has opened the device, and works() when it has seen that the
+  // device works. works() resets the next pause to first_pause_s; opened() does not.
   void opened();
   void works();
   // Sets the fault of an open device; empty if there is no fault. A fault counts as one error, when
