@@ -1,5 +1,5 @@
-// What a pan-tilt unit reported at one exposure, in its own counts: a calibration's observation.
-// Pure.
+// The readings of a pan-tilt unit at one exposure, in the unit's own counts. A calibration uses
+// them as observations. Pure.
 #pragma once
 
 #include "edge/mount/approach_history.h"

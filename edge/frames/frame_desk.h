@@ -26,12 +26,13 @@ struct FramePart {
 
 class FrameDesk {
  public:
-  // A datagram has at most about 65 000 bytes; the rest is for the header.
+  // Maximum size of a part. A datagram has at most about 65 000 bytes; the difference is left for
+  // the header.
   static constexpr std::size_t kPart_bytes = 60000;
 
   FrameService& service() { return service_; }
-  // Passes frames that answer a request to the encoder, and divides the next encoded frame into
-  // parts. Never waits.
+  // Passes the requested frames to the encoder, and divides the next encoded frame into parts.
+  // Never waits.
   void look(const clock::ClockPair& now, const PointingModel& unit);
   // The next part to be sent; nullopt if there is none.
   std::optional<FramePart> next();

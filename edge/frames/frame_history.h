@@ -19,8 +19,8 @@ class FrameHistory {
 
   // Returns false, and ignores the frame, if it is not later than the newest one.
   bool add(const camera::Frame& frame);
-  // The frame with this mid-exposure, to within 20 ms; without a time, the newest frame. Null if
-  // there is no such frame.
+  // The frame whose mid-exposure is nearest to this time, if the two differ by less than 20 ms;
+  // without a time, the newest frame. Null if there is no such frame.
   const camera::Frame* find(const std::optional<double>& mid_exposure_s) const;
   // The frames after this time up to the newest, oldest first. If there are more than kMostSince,
   // only every second (third, ...) frame is returned, because the control loop waits while they are

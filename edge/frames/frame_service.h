@@ -1,5 +1,6 @@
-// Provides full-resolution frames for a calibration, on request. Each frame comes with the unit's
-// readings at its exposure. It is the first frame at which the unit stands as requested. Pure.
+// Provides full-resolution frames for a calibration, on request. A request states the angles and
+// the rest of the unit; the first frame exposed under these conditions answers it. The frame comes
+// with the unit's readings at its exposure. Pure.
 #pragma once
 
 #include <cstdint>

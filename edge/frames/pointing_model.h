@@ -43,7 +43,7 @@ class PointingModel {
   void set_limits(const mount::Limits& limits);
   // Adds a sample; call it in order of time.
   void add(const mount::AngleSample& sample);
-  // Adds the motion from an earlier frame, exposed at `from_s`, to `frame`.
+  // Adds the motion of the image between an earlier frame, exposed at `from_s`, and `frame`.
   void add(const tracker::ImageMotion& motion, double from_s, const camera::Frame& frame);
   // Adds a zoom position of a motorised lens. geometry() contains the camera at the newest
   // position.
@@ -66,8 +66,8 @@ class PointingModel {
   // The geometry with the present pose.
   const StationGeometry& geometry() const { return geometry_; }
   const sensors::StationPose& pose() const { return pose_; }
-  // Is incremented when the pose changes by more than its sigmas, or when geometry or setup change;
-  // 0 until then.
+  // 0 at the start. Is incremented when the pose changes by more than its sigmas, or when geometry
+  // or setup change.
   std::int64_t pose_revision() const { return pose_revision_; }
 
   // The unit's state at a time. `stamp_sd_s`: 1-sigma of this time, if it is the time stamp of a
@@ -85,7 +85,8 @@ class PointingModel {
   }
   // The camera's position and direction with these angles; nullopt if the zoom is unknown.
   std::optional<video::CameraView> camera_at(const UnitAngles& unit) const;
-  // The camera at a time, with its standard deviations; nullopt if the zoom is unknown.
+  // The camera's focal length and principal point at a time, with their standard deviations;
+  // nullopt if the zoom is unknown.
   std::optional<ZoomPoint> zoom_at(double time_s) const;
   // Whether the zoom was at rest at a time; always true for a lens without a motor. nullopt if its
   // positions before and after that time are unknown.
@@ -108,9 +109,10 @@ class PointingModel {
                                           const AzimuthElevation& direction) const;
   bool in_picture(const Eigen::Vector2d& pixel) const;
 
-  // Pan angles that differ by a whole turn point in the same direction. Of the reported angles with
-  // the direction of `angles`, these functions return those that the unit reaches by the shortest
-  // way, from its present position or from `here`. nullopt if the unit cannot point there.
+  // Pan angles that differ by a whole turn point in the same direction. Of all reported angles that
+  // point in the same direction as `angles`, these functions return the ones at the end of the
+  // unit's shortest path. The path starts at the unit's present position, or at `here`. nullopt if
+  // the unit cannot point in this direction.
   std::optional<PanTilt> reachable(const PanTilt& angles) const;
   std::optional<PanTilt> reachable_from(const PanTilt& here, PanTilt angles) const;
   // The reported angles that put a direction on the optical axis; nullopt if the unit cannot point

@@ -13,7 +13,7 @@ namespace ols::station {
 
 // Returns the newest frame for which the mount's angles before and after the exposure are known,
 // with the camera's pose. `frames`: oldest first. nullopt if there is no such frame, if mount or
-// zoom moved during its exposure, or if the station has no position.
+// zoom moved during the exposure of that frame, or if the station has no position.
 std::optional<skyline::StatedPicture> skyline_picture(const std::deque<camera::Frame>& frames,
                                                       const PointingModel& pointing);
 
