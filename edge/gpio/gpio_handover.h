@@ -28,14 +28,15 @@ class GpioHandover {
   using OnRearm = std::function<void()>;
 
   // turn() and failed() call `on_stop` for the first level of the emergency stop and at each
-  // change. If a stop_line is configured, missing or unreadable lines count as pressed. turn()
-  // calls `on_rearm` each time the button has been held long enough while the stop is not pressed.
+  // change. If a stop_line is configured, the stop counts as pressed while the lines are missing or
+  // unreadable. turn() calls `on_rearm` each time the button has been held long enough while the
+  // stop is not pressed.
   GpioHandover(const GpioConfig& config, OnStop on_stop, OnRearm on_rearm);
   virtual ~GpioHandover() = default;
   GpioHandover(const GpioHandover&) = delete;
   GpioHandover& operator=(const GpioHandover&) = delete;
 
-  // The next four may be called from any thread; none of them waits for the device.
+  // The next four functions may be called from any thread; none of them waits for the device.
   void show(LedPattern pattern);
   void trigger();  // sends a pulse on trigger_line
   // Whether the emergency stop counts as pressed. True also while its level has not been read yet;
@@ -48,9 +49,9 @@ class GpioHandover {
   // or have failed.
   void opened();
   void failed(const std::string& what);
-  // Reads the inputs, calls the callbacks, and drives the outputs. Call at each edge, at each
-  // wake(), and at the time that the last call has returned [s, CLOCK_MONOTONIC]. Throws
-  // std::system_error, as GpioLines does.
+  // Reads the inputs, calls the callbacks, and drives the outputs. Returns the time of the next
+  // call [s, CLOCK_MONOTONIC]. Call it at this time, and also at each edge and at each wake().
+  // Throws std::system_error, as GpioLines does.
   double turn(GpioLines& lines);
   void leave(GpioLines& lines) const;
 

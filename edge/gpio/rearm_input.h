@@ -16,7 +16,7 @@ class RearmInput {
   // Notes that the line cannot be read, or that the emergency stop has changed. The button must
   // then be seen open and be held again.
   void interrupted();
-  // Whether the button has been held long enough; true only once each time.
+  // Returns true if the button has been held long enough, but only once for each press.
   bool take(double now_s);
   // The time from which take() returns true if no edge comes before; nullopt if the button is not
   // held.
