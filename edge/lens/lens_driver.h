@@ -18,7 +18,7 @@ class LensDriver {
  public:
   explicit LensDriver(double poll_interval_s) : poll_interval_s_(poll_interval_s) {}
 
-  // Takes the received bytes. `time_s`: monotonic time at which they had arrived.
+  // Takes the received bytes. `time_s`: a monotonic time by which all of them had arrived.
   void receive(std::string_view bytes, double time_s);
   // Returns the bytes to send now, often none. Call every few milliseconds.
   std::string step(double time_s);
@@ -37,7 +37,7 @@ class LensDriver {
   const LensState& state() const { return state_; }
   LensCounters counters() const;
 
-  // Longest wait for an answer. A lens acknowledges within the time of one picture.
+  // Longest wait for an answer. A lens acknowledges a command within one frame period of its video.
   static constexpr double kReply_s = 0.3;
   static constexpr int kSilent = 8;
   static constexpr double kIrisStep_s = 0.15;  // time between two iris steps at the maximum rate

@@ -22,7 +22,7 @@ class LensHandover {
   LensHandover(const LensHandover&) = delete;
   LensHandover& operator=(const LensHandover&) = delete;
 
-  // The next four may be called from any thread; none of them waits for the lens.
+  // The next four functions may be called from any thread; none of them waits for the lens.
   void order(const LensOrder& order);
   // The zoom samples since the last call, oldest first.
   std::vector<ZoomSample> take_samples();

@@ -19,9 +19,9 @@ class ZoomLens {
   void add(const ZoomSample& sample);
 
   // The calibrated values at `time_s`. nullopt if this is more than kSilent_s before the oldest or
-  // after the newest sample. While the zoom moves, the values' 1-sigma grows with its speed, with
-  // the error of the samples' times and, before or after all samples, with the time from the
-  // nearest one.
+  // after the newest sample. While the zoom moves, the 1-sigma of these values grows with the
+  // zoom's speed, and with the error of the samples' times. Before the oldest or after the newest
+  // sample, it also grows with the time from that sample.
   std::optional<ZoomPoint> at(double time_s) const;
   std::optional<ZoomPoint> newest() const;
   // Whether the zoom stood still at `time_s`: the samples just before and after differ by at most
