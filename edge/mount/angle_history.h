@@ -48,7 +48,7 @@ class AngleHistory {
  public:
   struct Config {
     double span_s = 5.0;      // how long samples are kept
-    double max_gap_s = 0.25;  // longest gap across which angles are interpolated
+    double max_gap_s = 0.25;  // longest interval between samples over which angles are interpolated
     // Longest time after the newest sample for which angles are extrapolated.
     double max_extrapolation_s = 0.15;
     double step_rad = 5.61e-5;  // one encoder step: 11.5714 arc seconds
@@ -90,8 +90,9 @@ class AngleHistory {
   double knot_variance(const Knot& knot, double rate_rad_s) const;
   // Variance of the angle from a change of rate that may have begun after the newest sample.
   double begun_variance(const Knot& newest, double beyond_s) const;
-  // Square of the acceleration to assume between samples_[b-1] and samples_[b]: that of the order,
-  // or that which neighbouring samples show beyond their noise, if it is larger.
+  // Square of the acceleration to assume between samples_[b-1] and samples_[b]. It is the larger
+  // one of two: the ordered acceleration, and the acceleration that the neighbouring samples show
+  // beyond their noise.
   double bend2(std::size_t b, KnotOf knot) const;
   double bend2_at(std::size_t middle, KnotOf knot) const;
 

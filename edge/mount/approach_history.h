@@ -17,7 +17,7 @@ struct Approach {
 class ApproachHistory {
  public:
   // `step`: size of the mount's counts [rad]. A motion of less than a count and a half is ignored
-  // as noise, because an axis at rest may report averages of two counts.
+  // as noise, because an axis at rest may report the average of two neighbouring counts.
   explicit ApproachHistory(const PanTilt& step) : step_(step) {}
   void set_step(const PanTilt& step) { step_ = step; }
 

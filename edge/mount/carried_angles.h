@@ -22,9 +22,10 @@ class CarriedAngles {
   void add(const SeenTurn& turn);
   void clear();
 
-  // The angles of the picture with the stamp `time_s`. The covariance includes the error of the
-  // pictures' stamps, which is estimated together with the delay of the reports. nullopt if there
-  // are no pictures of that time, or if the newest report is older than config.span_s.
+  // The mount's angles at the exposure of the picture with the stamp `time_s`. The covariance
+  // includes the error of the pictures' stamps, which is estimated together with the delay of the
+  // reports. nullopt if there are no pictures of that time, or if the newest report is older than
+  // config.span_s.
   std::optional<AngleAt> at(double time_s) const;
 
  private:

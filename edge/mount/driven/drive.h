@@ -42,7 +42,7 @@ struct Moves {
 };
 
 // The linear relation between the angle of an axis and the mount's numbers. A negative factor means
-// that the mount counts in the opposite direction.
+// that the mount's number decreases while the angle increases.
 struct AxisScale {
   double zero_rad = 0.0;            // the angle at position 0
   double per_unit_rad = 0.0;        // angle per unit of position
@@ -140,7 +140,7 @@ class Drive {
   PanTilt rate_;              // [rad/s] the ordered rate
   PanTilt absolute_;          // the ordered position
   double ordered_s_ = 0.0;    // time of the last order of a motion
-  double moved_for_s_ = 0.0;  // time of the newest position at that order
+  double moved_for_s_ = 0.0;  // time of the newest position when that order was given
   double asked_s_ = -1e9;     // time of the last question for the position
   bool stop_wanted_ = true;
   int stops_ = 0;                        // number of stops since the last motion
@@ -150,9 +150,9 @@ class Drive {
 
   std::deque<Seen> seen_;  // positions of the last 0.6 s
   Travel pan_travel_, tilt_travel_;
-  // true: the positions have not followed an order, and no later one either
+  // true: the reported positions have not followed an order, nor any order after it
   bool distrusted_ = false;
-  // No motion is ordered until then, because one was refused or ignored.
+  // No motion is ordered before this time, because the mount has refused or ignored one.
   double refused_until_s_ = -1e9;
   // When the mount was last observed to move without an order, not to stop, and to ignore an order.
   std::optional<double> unordered_s_, unstopped_s_, ignored_s_;

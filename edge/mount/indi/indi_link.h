@@ -27,7 +27,7 @@ struct Heard {
   double position_s = 0.0;  // arrival of `position`, CLOCK_MONOTONIC
   bool slews = false;       // the telescope is moving to ordered coordinates
   std::optional<Observer> observer;
-  // Largest track rate of both axes; nullopt if it takes no track rates.
+  // Largest track rate of both axes; nullopt if the telescope takes no track rates.
   std::optional<double> fastest_rad_s;
   bool can_stop_tracking = false;
   bool tracks = false;
