@@ -1,6 +1,6 @@
-// Monitors the station's computer: processor temperature, free disk space, and slow turns (cycles)
-// of the control loop. It reads temperature and disk in its own thread, because a hanging network
-// disk must not block the control loop.
+// Monitors the station's computer: processor temperature, free disk space, and slow cycles of the
+// control loop. (Here, a cycle is called a turn.) It reads temperature and disk in its own thread,
+// because a hanging network disk must not block the control loop.
 #pragma once
 
 #include <cstddef>

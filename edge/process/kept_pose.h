@@ -20,7 +20,7 @@ class KeptPose {
   KeptPose(const StationSettings& settings, double now_s);
 
   sensors::StationPose pose(double now_s) const { return estimator_.pose(now_s); }
-  // Call in every turn of the control loop. Passes the devices' readings to the estimator, and
+  // Call in every cycle of the control loop. Passes the devices' readings to the estimator, and
   // persists the pose at intervals, without waiting for the disk. Returns the pose ten times a
   // second, otherwise nullopt.
   std::optional<sensors::StationPose> look(DeviceSet& devices, double now_s);

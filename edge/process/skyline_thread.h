@@ -31,12 +31,12 @@ class SkylineThread {
   SkylineThread(const SkylineThread&) = delete;
   SkylineThread& operator=(const SkylineThread&) = delete;
 
-  // Whether the thread needs a picture: five seconds after the last one, if the land has been read
-  // and no picture is being compared.
+  // Whether the thread needs a picture. It needs one every five seconds, as soon as the land has
+  // been read and no other picture is being compared.
   bool wants(double now_s) const;
   // Hands a picture to the thread; never waits. Call it only if wants() has returned true.
   void give(skyline::StatedPicture picture);
-  // Call in every turn of the control loop. `setup`: Station::setup_revision(). If it has changed,
+  // Call in every cycle of the control loop. `setup`: Station::setup_revision(). If it has changed,
   // the seen skyline is forgotten, because it was seen with another heading, tilt or position.
   void follow(int setup, const skyline::SkylineOwner& owner);
   std::vector<Alarm> alarms() const;

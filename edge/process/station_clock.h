@@ -1,4 +1,5 @@
-// UTC and monotonic clock of a station's process, read at the same instant, and the quality of UTC.
+// Reads UTC and the monotonic clock of a station's process at the same instant, and judges the
+// quality of UTC.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ class StationClock {
   StationClock(const clock::ClockWatch::Config& config, TimeService service)
       : watch_(config), service_(std::move(service)) {}
 
-  // Reads the clocks. Call in every turn of the control loop, before anything is published.
+  // Reads the clocks. Call in every cycle of the control loop, before anything is published.
   clock::ClockPair look();
   clock::ClockQuality quality(double now_s) const { return watch_.quality(now_s); }
   // Converts monotonic time to UTC, with the difference of the clocks at the last look().

@@ -34,13 +34,13 @@ class StationProcess {
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
                  Outside outside = {open_chosen_devices, host_time_service()});
 
-  // Runs until `ends` returns true. Notifies systemd: the station is ready after the first turn of
+  // Runs until `ends` returns true. Notifies systemd: the station is ready after the first cycle of
   // the control loop, even if devices are absent.
   void run(const std::function<bool()>& ends);
 
-  // One turn of the control loop. Handles commands, angles, the newest frame, bearings and the
-  // mount's goal. At intervals, also sends a status and a preview. A turn takes a few milliseconds,
-  // or as long as the tracker needs for a frame.
+  // One cycle of the control loop. Handles commands, angles, the newest frame, bearings and the
+  // mount's goal. At intervals, also sends a status and a preview. A cycle takes a few
+  // milliseconds, or as long as the tracker needs for a frame.
   void turn();
 
  private:
