@@ -103,7 +103,7 @@ class PtuDriver {
   enum class Progress { kNone, kFaulted, kReady };
 
   // The longest time for which received bytes may have waited before they were read: the longer one
-  // of the last two intervals between calls of receive().
+  // of the last two intervals between two calls of receive().
   struct ReadDelay {
     void note_call(double time_s) {
       const double pause_s = std::max(0.0, time_s - called_s);

@@ -1,5 +1,5 @@
-// Converts goals to the commands of a poll cycle: the servo's positions and speeds in counts, as
-// far as they have changed, or a halt. Pure.
+// Converts goals to the commands of a poll cycle: either a halt, or those of the servo's positions
+// and speeds [counts] that have changed. Pure.
 #pragma once
 
 #include <optional>

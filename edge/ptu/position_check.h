@@ -17,9 +17,9 @@ namespace ols::ptu {
 
 class PositionCheck {
  public:
-  // The numbers 0 and 0.5 are the correlations of the errors of an axis's two instants. Pan: no
-  // correlation, because nothing delays its first reading, which is the first of the cycle. Tilt:
-  // the same work of the unit delays both readings.
+  // The numbers 0 and 0.5 are correlations, of the errors of the times of an axis's two readings.
+  // Pan: no correlation, because its first reading is the first of the cycle, and nothing delays
+  // it. Tilt: the same work of the unit delays both readings.
   explicit PositionCheck(const PtuFacts& facts) : pan_{facts.pan, 0.0}, tilt_{facts.tilt, 0.5} {}
 
   enum class Verdict {
@@ -32,8 +32,8 @@ class PositionCheck {
   Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& commanded_rad_s2);
   const mount::AngleSample& sample() const { return sample_; }
 
-  // The rate between the last two accepted pairs; 0 before the second one, or if the two are 0.3 s
-  // or more apart.
+  // The rate between the last two accepted pairs; 0 before the second accepted pair, or if the two
+  // pairs are 0.3 s or more apart.
   PanTilt rate_rad_s() const;
   // Whether the positions of both axes do not change.
   bool standing() const;
@@ -49,7 +49,7 @@ class PositionCheck {
   };
   struct Axis {
     PtuAxisFacts facts;
-    double correlation;  // of the errors of the two instants
+    double correlation;  // of the errors of the times of the two readings
     std::optional<Merged> last = {};
     double rate_counts_s = 0.0;
     bool rate_known = false;

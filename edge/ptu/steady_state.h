@@ -23,7 +23,7 @@ class PtuSteadyState {
                  PtuCounters& counters);
 
   // If one reply contains at least this number of limit hits, the unit has homed. A homing causes
-  // four (`!T!T!P!P*`), of which one may be lost.
+  // four (`!T!T!P!P*`), but one of them may be lost.
   static constexpr int kHomingHits = 3;
 
   // Why the unit must be started again.
