@@ -23,10 +23,10 @@ struct RecordedEvent {
   double expected_bytes = 0.0;  // estimate of the bytes still to be written
   bool closed = false;          // no more frames will be added
   std::uint64_t written = 0;    // number of frames written
-  // Why EventFolder::finish() failed; all frames are on the disk; empty if it did not fail.
+  // Why EventFolder::finish() failed, after all frames were written; empty if it did not fail.
   std::string unfinished;
   double retry_s = 0.0;  // time of the next attempt to finish the event
-  std::string name;      // folder's name; `name` and `folder` are used only by the writing thread
+  std::string name;      // name of the folder; only the writing thread uses `name` and `folder`
   std::optional<EventFolder> folder;
 };
 
@@ -38,7 +38,8 @@ class EventQueue {
   // Takes a frame into the memory and into the events that it belongs to. Returns how many events
   // have lost this frame, because too many frames are waiting to be written.
   int add(const RecordedFrame& frame);
-  // The reason to refuse the command, not counting the disk; empty if there is none.
+  // The reason to refuse the command; empty if there is none. The space on the disk is not checked
+  // here.
   std::string refusal(const RecordCommand& command, double now_s) const;
   // Begins an event, with the frames of its time that are in memory. Returns the number of frames
   // that were dropped because too many are waiting to be written.

@@ -3,8 +3,8 @@
 //
 // Any program on the bus can request recordings. New recordings must therefore not displace old
 // ones freely. In any period of `protect_s`, at most one event is removed. It must be older than
-// `protect_s`; among the events that are, the oldest one of the label that occupies most space is
-// removed.
+// `protect_s`. Among the labels that have such an event, the one whose events occupy most space is
+// chosen, and its oldest event is removed.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,8 @@ namespace ols::recorder {
 
 inline constexpr double kLateFrame_s = 1.0;  // largest delay of a frame after its exposure
 
-// Why the command cannot be carried out with this configuration, not counting the frames in memory;
-// empty if it can.
+// Why the command cannot be carried out with this configuration; empty if it can. Whether the
+// frames are in memory is not checked here.
 std::string wrong_with(const RecordCommand& command, const RecorderConfig& config, double now_s);
 
 // Limits the rate of recording commands: eight at once, then one every 10 s.
