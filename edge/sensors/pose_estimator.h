@@ -28,7 +28,8 @@ namespace ols::sensors {
 enum class PoseSource { kNone, kSurveyed, kSensor };
 
 struct StationPose {
-  // Of the origin of GROUND (geometry/kinematic_chain.h), the surveyed mark below the tripod.
+  // Position of the surveyed mark below the tripod: the origin of the frame GROUND
+  // (geometry/kinematic_chain.h).
   Geodetic position;
   Eigen::Vector3d position_sd_enu_m = Eigen::Vector3d::Zero();
   // kNone: no position is known yet; the station then sends no bearings.

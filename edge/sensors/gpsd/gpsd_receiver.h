@@ -13,7 +13,7 @@ namespace ols::sensors {
 struct GpsdConfig : GnssConfig {
   std::string host;  // host of gpsd; empty if the station has no receiver
   std::string port = "2947";
-  // Number of sigmas that gpsd's errors are taken as; used only without GST.
+  // gpsd's errors are assumed to be this number of sigmas; used only without GST.
   double error_sigmas = 1.0;
 };
 
