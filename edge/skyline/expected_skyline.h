@@ -1,5 +1,5 @@
 // Computes the rows of a picture at which the map of the land expects the skyline, and the
-// directions of the skyline that was found in it. Pure.
+// directions of the skyline that was found in the picture. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,9 +27,9 @@ struct PictureView {
   double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
 };
 
-// The map's skyline. Suppose that nearer land is lower than the crest by less than two sigmas of
-// the nearer land. It may then really cover the crest; therefore, the greater of the two sigmas is
-// returned. nullopt where the land is unknown.
+// The map's skyline. If nearer land is lower than the crest by less than two of its own sigmas,
+// this land may in reality hide the crest. The result then has the greater one of the two sigmas.
+// nullopt where the land is unknown.
 std::optional<land::Skyline> uncertain_skyline(const land::HorizonMap& map, double azimuth_rad);
 
 // The row of the land's skyline in each strip of a picture. The sigmas contain kHeadingSd_rad and

@@ -15,8 +15,8 @@ namespace ols::skyline {
 // - Pictures and map agree within three sigmas: the crest is the mean of the two, weighted by their
 //   variances, at the distance of the map's crest.
 // - The pictures show something higher, at an unknown distance. It is assumed to be an object
-//   kTallest_m high, and to stand as far away as possible: at the farthest place, up to the map's
-//   crest, where its top reaches the seen elevation. It hides targets beyond that place.
+//   kTallest_m high. Of all places up to the map's crest at which the top of such an object reaches
+//   the seen elevation, the farthest is assumed. The object hides targets beyond that place.
 // - The pictures show something lower: what the map hides does not change, because haze may conceal
 //   the map's crest.
 //

@@ -12,8 +12,8 @@ namespace ols::skyline {
 struct SeenPlace {
   AzimuthElevation direction;
   double variance_rad2 = 0.0;  // variance of the elevation, from the pictures alone
-  // Variance of the azimuth, as stated by the station. All places may have the same error of
-  // azimuth.
+  // Variance of the azimuth, as stated by the station. The azimuths of all places may have the same
+  // error.
   double azimuth_variance_rad2 = 0.0;
   double newest_s = 0.0;  // time of its newest picture
   double oldest_s = 0.0;  // time of its first picture

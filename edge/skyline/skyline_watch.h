@@ -60,10 +60,10 @@ class SkylineWatch {
   // station states.
   double difference_sd_rad() const;
   bool disagrees() const { return disagrees_; }
-  // Each column as it was seen last; empty before anything is seen. A column that disagrees with
-  // the land is included only after kPictures pictures have shown it at the same elevation, to
-  // within kSame_rad, over at least kApart_s. It is removed when a picture shows the land there, or
-  // when it has not been seen for kKept_s.
+  // Each column of the skyline as it was seen last; empty before anything is seen. A column that
+  // disagrees with the land is included only after kPictures pictures have shown it at the same
+  // elevation, to within kSame_rad, over at least kApart_s. It is removed when a picture shows the
+  // land there, or when it has not been seen for kKept_s.
   const HidingSkyline& hiding() const { return hiding_; }
   // Continues `earlier`, a saved skyline, as soon as a picture is taken at the place from which
   // that skyline was seen.
@@ -74,8 +74,8 @@ class SkylineWatch {
   Alarm alarm() const;
 
   static constexpr double kMoved_m = 5.0;
-  // While the land does not fit, a new map is tried already after this distance, because the first
-  // position fix may have been wrong.
+  // While the land does not fit, a new map is tried as soon as the stated position has changed by
+  // this distance, because the first position fix may have been wrong.
   static constexpr double kAgain_m = 0.5;
   // For hiding(): the edge of a cloud moves by more than kSame_rad within kApart_s, and therefore
   // does not count as an obstacle.
