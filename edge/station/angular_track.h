@@ -1,6 +1,6 @@
 // Estimates the target's motion as one station sees it, in PTU angles, with a constant-velocity
-// Kalman filter for each axis. The result is the servo's feed-forward, and predicts the target
-// through short gaps. Pure.
+// Kalman filter for each axis. The result is the servo's feed-forward. It also predicts the target
+// while it is not seen for a short time. Pure.
 #pragma once
 
 #include <Eigen/Core>

@@ -51,8 +51,9 @@ class DetectedObjects {
     return looks_ && !looks_->forgotten ? &looks_->frame : nullptr;
   }
   // What the detector has measured of the followed target in its newest picture; returned once for
-  // each picture. nullopt if it found nothing there, or if the target followed in that picture had
-  // another id. This size follows a bird's wing beats; the tracker's box does not.
+  // each picture. nullopt if it found nothing at the target, or if the target followed in that
+  // picture had another id. The size in the result follows a bird's wing beats; the tracker's box
+  // does not.
   std::optional<DetectedPixel> take_detection_of(std::int64_t track_id);
   // Call when the mount's future angles cannot be compared with earlier ones.
   void forget_angles();

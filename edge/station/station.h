@@ -81,7 +81,8 @@ class Station {
   // Changes the geometry while the station runs. Everything that was measured with the previous
   // geometry is forgotten. `calibration`: the calibration from which the geometry comes, if any.
   void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
-  // Call if the reference views have moved by this much. Bearings from then on include this error.
+  // Call if the reference views show that the station may have turned by these angles. From then
+  // on, the covariance of bearings includes these errors.
   void doubt_setup(double heading_sd_rad, double tilt_sd_rad) {
     pointing_.doubt_setup(heading_sd_rad, tilt_sd_rad);
     ++setup_revision_;

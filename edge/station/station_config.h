@@ -47,7 +47,7 @@ struct StationConfig {
   double angle_wait_s = 0.03;  // maximum time that a frame waits for the next PTU sample
   // How long frames are kept for a designation; a person needs time to drag a box.
   double frame_memory_s = 3.0;
-  // Interval at which a searching tracker gets the pixel of the slew.
+  // While the tracker searches, it gets the pixel to which the slew points at this interval.
   double search_interval_s = 0.5;
   double search_sd_px = 25.0;   // minimum 1-sigma of that pixel; the maximum is max_search_sd_px()
   bool acquire_by_slew = true;  // a station without a target acquires one along a slew

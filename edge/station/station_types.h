@@ -56,8 +56,8 @@ struct Bearing {
   std::int64_t track_id = 0;
   double stamp_sd_s = 0.0;
   camera::StampSource stamp_source = camera::StampSource::kCamera;
-  // PointingModel::pose_revision(): is incremented when the pose changes by more than its sigmas,
-  // or when geometry or setup change; 0 until then.
+  // PointingModel::pose_revision(): 0 at the start; is incremented when the pose changes by more
+  // than its sigmas, or when geometry or setup change.
   std::int64_t pose_revision = 0;
   // The values from which the bearing was made:
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
@@ -105,7 +105,7 @@ AzimuthElevation direction_at(const SlewCommand& slew, double time_s);
 struct OcclusionCommand {
   double made_s = 0.0;
   double received_s = 0.0;
-  double holds_s = 0.0;     // how long the prediction is valid; 0 withdraws the last one
+  double holds_s = 0.0;     // how long the prediction is valid; 0 withdraws the previous prediction
   std::int64_t sender = 0;  // the boot id of the fusion
   std::int64_t target_id = 0;
   struct Exit {
@@ -180,7 +180,7 @@ struct StationSnapshot {
   double focal_length_sd_px = 0.0;
   std::int64_t track_id = 0;
   double belief = 0.0;  // while the target is hidden: the belief when it was last seen
-  // On the monotonic clock; the latter only if known.
+  // On the monotonic clock. hidden_until_s is nullopt while it is not known.
   std::optional<double> hidden_since_s, hidden_until_s;
   std::optional<mount::AngleSample> angles;
   std::optional<AzimuthElevation> optical_axis;
