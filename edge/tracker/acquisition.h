@@ -19,10 +19,13 @@ struct AcquisitionConfig {
   double least_contrast = 10.0;  // [grey levels] minimum contrast
   double least_side_px = 4.0;    // minimum length of the object's longer side
   double most_side_px = 90.0;    // maximum length of the object's longer side
-  double place_px = 10.0;        // the object's offset from the expected pixel may change by this,
-  double place_fraction = 0.15;  // plus this share of the object's longer side
+  // The object's offset from the expected pixel may differ from that in its first frame by
+  // place_px, plus the share place_fraction of the object's longer side.
+  double place_px = 10.0;
+  double place_fraction = 0.15;  // see place_px
   double size_ratio = 1.7;       // maximum ratio of its sizes in consecutive frames
-  // A second object competes with the strongest one if its strength exceeds this share of it.
+  // A second object competes with the strongest one if its strength exceeds this share of the
+  // strongest object's strength.
   double rival_fraction = 0.3;
 };
 

@@ -1,6 +1,6 @@
 // Decides whether a box contains an object or only background, by comparison with an earlier image
 // of the same place. If the box shows background, it differs from the earlier image no more than
-// its surroundings do.
+// the surroundings of the box do.
 #pragma once
 
 #include "edge/tracker/foreground_mask.h"

@@ -1,4 +1,4 @@
-// A colour picture as the camera delivers it. Only the part that is asked for is converted.
+// A colour picture as the camera delivers it. Only the requested part is converted.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -1,6 +1,6 @@
 // Finds the conspicuous part of a designated box. Operators draw generous boxes. If the box is
-// sixty pixels wide and the bird in it five, a template of the box is mostly sky, and sky matches
-// everywhere.
+// sixty pixels wide and the bird in it is five pixels wide, a template of the box is mostly sky,
+// and sky matches everywhere.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -9,8 +9,9 @@ namespace ols::tracker {
 
 // The evidence in one frame in which an object is followed.
 struct FollowEvidence {
-  // Response at the target, relative to the deviation of the response elsewhere in the window. If
-  // the filter has drifted onto the background, it responds everywhere, and this value is low.
+  // Response::prominence() at the target: the response there minus its mean elsewhere in the
+  // window, divided by its standard deviation elsewhere. If the filter has drifted onto the
+  // background, it responds everywhere, and this value is low.
   double prominence = 0.0;
   // Result of background_change(); nullopt if there is no image of the background at that place.
   std::optional<double> change = {};

@@ -27,8 +27,8 @@ class LearntAppearance {
   // The response of filter and colours at a pixel of the newest frame, relative to the usual one; 0
   // where no search took place.
   double recognised(const Eigen::Vector2d& pixel) const;
-  // The filter's response at a pixel of the newest frame, relative to the deviation of its response
-  // elsewhere; 0 where no search took place.
+  // Response::prominence() of the filter at a pixel of the newest frame; 0 where no search took
+  // place.
   double prominence(const Eigen::Vector2d& pixel) const;
   // How much the colours at a pixel of the newest frame resemble the target's first colours: 0 like
   // the rest of the window, 1 like the target at first. 0 where no search took place.

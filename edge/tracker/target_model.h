@@ -62,9 +62,10 @@ class TargetModel {
   // Learns the target's present size, from a sharp image.
   void learn_size(const Eigen::Vector2d& size_px, double share);
 
-  // Returns the size of a visible target, and learns how its size shows in the image. If the size
-  // was `measured` by comparison with the first image, the size of `target` is returned. Otherwise,
-  // the usual size is corrected by the growth of the present appearance (ScaleFilter).
+  // Returns the size of a visible target, and lets the ScaleFilter learn the images of this size.
+  // If the size was `measured` by comparison with the first image, the size of `target` is
+  // returned. Otherwise, the usual size is corrected by the growth of the present appearance
+  // (ScaleFilter).
   Eigen::Vector2d follow_size(const cv::Mat& gray, const Particle& target,
                               const std::optional<Eigen::Vector2d>& measured, double interval_s);
   // Call when the tracker returns to the target after it has followed another object. `size_px`:

@@ -31,12 +31,15 @@ struct TrackerConfig {
   double position_sd_px = 1.0;  // per frame
   // Per frame, relative to the box's size; added to position_sd_px.
   double position_sd_fraction = 0.04;
-  double velocity_gain = 0.4;      // share of the position noise that is added to the velocity
+  // The position noise, divided by the frame interval and multiplied by this gain, is added to the
+  // velocity.
+  double velocity_gain = 0.4;
   double velocity_sd_px_s = 5.0;   // per frame; the velocity's own noise
-  double surprise_fraction = 0.2;  // share of the particles whose position noise is larger
-  double surprise_scale = 4.0;     // by this factor
+  double surprise_fraction = 0.2;  // share of the particles that get a larger position noise
+  double surprise_scale = 4.0;     // factor by which their position noise is larger
   double size_sd_fraction = 0.01;  // per frame, relative to the box's width and height
-  double size_prior_sd_fraction = 0.35;  // prior of the box's size, relative to its usual size
+  // 1-sigma of the prior of the box's size, relative to its usual size.
+  double size_prior_sd_fraction = 0.35;
   double initial_velocity_sd_px_s = 60.0;
 
   // Objective, eq. (5): a patch of background has exp(-sharpness) times the likelihood of the
