@@ -29,7 +29,7 @@ config::Section video_section(VideoConfig& config);  // the section [video]
 
 class VideoServer {
  public:
-  // Further viewers are refused.
+  // Maximum number of viewers at a time; others are refused.
   static constexpr int kMaxViewers = 8;
 
   // Throws std::invalid_argument if the address or a network is malformed. If the computer does not
