@@ -1,5 +1,6 @@
 // Notices when a new calibration is accepted while the station runs: the configured path then links
-// to another folder. Reads that folder in its own thread.
+// to another folder, or the folder's setup.toml was written again. Reads that folder in its own
+// thread.
 #pragma once
 
 #include <future>

@@ -59,8 +59,8 @@ class CalibrationSupervisor {
   void begin();
 
   UtcNow now_;
-  // Declared before in_use_, which reads the folder: if the folder changes meanwhile, next_ notices
-  // it as another calibration.
+  // Declared before in_use_, because it must note the folder's state before in_use_ reads the
+  // folder. If the folder changes in between, next_ finds another calibration.
   CalibrationFolderWatch next_;
   ActiveCalibration in_use_;
   // Null if no calibration is in use, or no checks are configured.

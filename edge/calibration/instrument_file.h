@@ -9,8 +9,8 @@
 
 namespace ols::calibration {
 
-// The constants of the lens model and of the unit to which the adjusted values belong. An
-// adjustment does not change these constants.
+// Constants of the lens model and of the unit. The adjusted values are valid only together with
+// these constants, which an adjustment does not change.
 struct FixedValues {
   LensModel model = LensModel::kPinhole;
   double skew = 0.0, p1 = 0.0, p2 = 0.0;
