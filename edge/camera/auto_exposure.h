@@ -30,8 +30,9 @@ PictureLevels measure_levels(const cv::Mat& gray, const std::optional<cv::Rect2d
 struct AutoExposureConfig {
   // Desired gray level of the brighter of target and surround.
   double bright_level = 200.0;
-  double mean_level = 110.0;     // desired mean of the image if there is no target
-  double dead_band = 0.12;       // smaller relative errors of the light are ignored
+  double mean_level = 110.0;  // desired mean of the image if there is no target
+  // Smaller errors of the light (natural logarithm of the ratio) are ignored.
+  double dead_band = 0.12;
   double damping = 0.7;          // share of the light's logarithmic error that one change corrects
   double greatest_factor = 2.0;  // largest factor of one change
   int settle_frames = 4;  // number of frames to wait after a change until its effect is visible

@@ -20,7 +20,7 @@ class Camera {
   Camera& operator=(const Camera&) = delete;
 
   // Returns the newest frame, each frame only once. If there is no new one, waits up to timeout_s
-  // for it; then nullopt.
+  // for it, and then returns nullopt.
   virtual std::optional<Frame> next(double timeout_s) = 0;
   // Sets the target's box, for automatic exposure; nullopt if there is no target.
   virtual void set_region(const std::optional<cv::Rect2d>& target_box) = 0;

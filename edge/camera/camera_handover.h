@@ -17,7 +17,7 @@ namespace ols::camera {
 
 class CameraHandover {
  public:
-  // For the callers; the meaning is that of the functions of Camera.
+  // For the callers; Camera describes these functions.
   std::optional<Frame> next(double timeout_s);
   void set_region(const std::optional<cv::Rect2d>& target_box);
   void ask_trigger();

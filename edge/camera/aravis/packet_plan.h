@@ -13,7 +13,7 @@ struct PacketPlan {
 struct StreamNeed {
   std::size_t frame_bytes = 0;
   int packet_bytes = 0;            // size of an IP packet with its headers
-  double frame_period_s = 0.0;     // the shortest that can occur
+  double frame_period_s = 0.0;     // the shortest period that can occur
   std::size_t receive_buffer = 0;  // [byte] as the kernel counts it, including its overhead
   double spread = 0.6;             // share of the frame period over which the packets are spread
 };
