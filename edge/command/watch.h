@@ -1,7 +1,8 @@
 // Decides where a station looks while nothing else uses its unit. The station looks at the middle
 // of its field of regard. If the field is larger than the picture, the station steps through the
 // field picture by picture, and stays at each for a while. If the detector sees an object there,
-// the station stays longer, so that other stations can be led along its line of sight. Pure.
+// the station stays longer, so that other stations can be led along the line of sight to the
+// object. Pure.
 #pragma once
 
 #include <Eigen/Core>
