@@ -29,7 +29,8 @@ class Tracklet {
     ++unseen_images_;
   }
 
-  // Whether the detection has the same polarity and about the same size.
+  // Whether the detection has about the same size, and is brighter than its surroundings if and
+  // only if the tracklet is.
   bool resembles(const Detection& detection) const;
   // distance(): the squared distance between prediction and detection, divided by its variance.
   // density(): the predicted probability density at the detection [1/px^2].
