@@ -43,7 +43,8 @@ class ChosenKind {
     return dynamic_cast<Made*>(&**this);
   }
 
-  // The device's configuration section. Reading a configuration into it chooses the kind.
+  // The device's configuration section. When a configuration is read into it, the key `kind`
+  // chooses the kind.
   config::Section section(std::string name, std::string sentence) {
     config::Section section{std::move(name), std::move(sentence)};
     section.choose = [this](std::size_t chosen) { chosen_ = chosen; };
