@@ -61,8 +61,9 @@ ols_msg::preview_t to_message(const video::PreviewPicture& picture, const camera
 ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
                                  std::int64_t sequence);
 
-// The answer to a command. `reason`: why the command is refused, as the name of a counter of
-// refusals; empty if the command is carried out. `detail`: the reason in words; may be empty.
+// The answer to a command. `reason`: why the command is refused, as one word (such as
+// "other_station"), which counters of refusals have in their names; empty if the command is carried
+// out. `detail`: the reason in words; may be empty.
 struct Answer {
   CommandId command;
   std::string reason{}, detail{};
