@@ -18,7 +18,7 @@ struct AngleSample {
   // reading, and the time from the pan reading to the tilt reading.
   std::optional<double> tilt_time_sd_s = {};
   double tilt_delay_s = 0.0;
-  PanTilt doubt = {};  // [rad] 1-sigma of other errors of each angle
+  PanTilt doubt = {};  // [rad] 1-sigma of each angle's errors that no other member describes
   // [rad] 1-sigma of an error that depends on the axis's position, and stays the same while the
   // axis stands there: backlash, repeatability.
   PanTilt place_sd = {};

@@ -17,7 +17,7 @@ class CarriedAngles {
   explicit CarriedAngles(const AngleHistory::Config& config)
       : config_(config), path_(config.span_s) {}
 
-  // Call each of the two in order of time.
+  // Call each of the two functions in order of time.
   void add(const AngleSample& sample);
   void add(const SeenTurn& turn);
   void clear();

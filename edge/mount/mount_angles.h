@@ -1,6 +1,6 @@
 // The mount's angles at an exposure. Computes them from the mount's reports alone (AngleHistory)
-// and from reports and pictures (CarriedAngles). Uses the latter if they are more accurate and do
-// not contradict the reports. Pure.
+// and from reports and pictures (CarriedAngles). Uses the angles from reports and pictures if they
+// are more accurate than those from the reports alone, and do not contradict the reports. Pure.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ class MountAngles {
  public:
   explicit MountAngles(const AngleHistory::Config& config) : reported_(config), carried_(config) {}
 
-  // Call each of the two in order of time. Returns false and drops the report if it is out of
-  // order.
+  // Call each of the two functions in order of time. Returns false and drops the report if it is
+  // out of order.
   bool add(const AngleSample& sample);
   void add(const SeenTurn& turn) { carried_.add(turn); }
   void clear();

@@ -19,7 +19,7 @@ struct SeenTurn {
   double row_s = 0.0;
   double stamp_sd_s = 0.0;  // 1-sigma of an error that the stamps of all pictures share
   PanTilt turn;
-  PanTilt sd;  // [rad] 1-sigma of `turn`, independent of other turns
+  PanTilt sd;  // [rad] 1-sigma of `turn`; independent from turn to turn
 };
 
 class SeenPath {
@@ -47,7 +47,7 @@ class SeenPath {
 
  private:
   struct Knot {
-    double picture_s, time_s;  // mid-exposure; the same plus row_s, the instant of `turned`
+    double picture_s, time_s;  // mid-exposure; picture_s + row_s, the instant of `turned`
     PanTilt turned, walk;
   };
   double rate(std::size_t right, double PanTilt::*axis) const;

@@ -33,7 +33,8 @@ struct SharedDrive {
   std::map<std::string, std::uint64_t> counters;  // of this kind
 
   explicit SharedDrive(const DriveConfig& config) : drive(config) {}
-  // Waits for `seconds`, but not longer than until an emergency or a stop request.
+  // Waits for `seconds`. Ends earlier in an emergency, or when the end of the thread is requested
+  // (`stop`).
   void pause(double seconds, const std::stop_token& stop);
 };
 
@@ -44,9 +45,9 @@ class MountSession {
   MountSession(const MountSession&) = delete;
   MountSession& operator=(const MountSession&) = delete;
 
-  // Connects, calls Drive::connected() and thread.opened(), and serves the mount until a stop is
-  // requested; then it stops the mount. Throws std::exception if the connection fails; run() is
-  // then called again after a pause.
+  // Connects, calls Drive::connected() and thread.opened(), and serves the mount until the end of
+  // the thread is requested (`stop`); then it halts the mount. Throws std::exception if the
+  // connection fails; run() is then called again after a pause.
   virtual void run(SharedDrive& shared, device::DeviceThread& thread,
                    const std::stop_token& stop) = 0;
   // Interrupts the current request, so that a stop can follow at once. May be called from any
@@ -60,7 +61,7 @@ class DrivenMount : public Mount {
  public:
   // Starts the thread, which connects to the mount, and returns at once.
   DrivenMount(const DriveConfig& config, std::unique_ptr<MountSession> session);
-  ~DrivenMount() override;  // waits until the session has stopped the mount and ended
+  ~DrivenMount() override;  // waits until the session has halted the mount and ended
 
   void set_goal(const std::optional<Goal>& goal) override;
   std::vector<AngleSample> take_samples() override;

@@ -1,7 +1,7 @@
 // Converts the positions that a mount reports to angle samples with times and errors. Pure.
 //
-// An answer contains no time. The time of its position is assumed as the middle between request and
-// answer, minus `delay_s`. The scatter of this time within the round trip is learnt in motion:
+// An answer contains no time. The time of its position is assumed to be the middle between request
+// and answer, minus `delay_s`. The scatter of this time within the round trip is learnt in motion:
 // while the ordered rate is constant, three consecutive positions should lie on a straight line.
 // Many mounts renew their position only a few times a second. If the ordered motion should have
 // changed the position, but the report is the same as before, the report is old and is not used.
@@ -39,7 +39,8 @@ class PositionIntake {
   std::vector<AngleSample> take() { return samples_.take(); }
 
   double round_trip_s() const { return round_trip_s_; }
-  // The interval at which the mount renews its position in motion; 0 if it is not known yet.
+  // The interval at which the mount renews its position while it moves; 0 if the interval is not
+  // known yet.
   double interval_s() const;
   // 1-sigma of a position: the configured value or the scatter of the positions at rest, whichever
   // is larger.
@@ -73,8 +74,9 @@ class PositionIntake {
   int rest_count_ = 0;
   std::deque<RateOrder> orders_;  // the orders of the last ten seconds, and the one before them
   std::array<Moved, 3> moved_in_row_{};
-  // Mean squared distances of positions from straight lines: observed, after subtraction of the
-  // part that sd_rad() explains; and expected, if times were distributed over the whole round trip.
+  // seen_spread_rad2_: mean squared distance of the positions from straight lines, minus the part
+  // that sd_rad() explains. whole_spread_rad2_: the value to expect if the times were uniformly
+  // distributed over the whole round trip.
   double seen_spread_rad2_ = 0.0, whole_spread_rad2_ = 0.0;
   std::optional<double> added_s_;  // time of the last sample
 };

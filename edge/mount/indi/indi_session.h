@@ -1,8 +1,8 @@
 // A session with a telescope mount behind an INDI server. The reported positions are used without a
 // model of the telescope's errors, as long as the telescope stays on its side of the pier.
 //
-// An INDI telescope continues at its last track rate when its client is gone. If a station was
-// killed, it stops the telescope at its next start.
+// An INDI telescope continues at its last track rate when its client is gone. If the station's
+// program is killed, the telescope therefore moves on; the program stops it at its next start.
 #pragma once
 
 #include <functional>

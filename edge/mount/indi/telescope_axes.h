@@ -6,11 +6,11 @@
 // declination. In the southern one, pan is the hour angle, and tilt is minus the declination.
 // Altazimuth: pan is minus the azimuth, and tilt is the elevation.
 //
-// A driver computes the right ascension from the axis's angle and its sidereal time; it computes
-// this sidereal time from its clock and longitude, with UT1 = UTC. The angle is recovered here with
-// the sidereal time from the station's clock and the driver's longitude. The driver's clock must
-// therefore agree with the station's clock: a difference of one second is an error of 15 arc
-// seconds.
+// A driver computes the right ascension from the axis's angle and a sidereal time. It takes this
+// sidereal time from its own clock and longitude, with UT1 = UTC. The functions below recover the
+// angle with the sidereal time that follows from the station's clock and the driver's longitude.
+// The driver's clock must therefore agree with the station's clock: a difference of one second is
+// an error of 15 arc seconds.
 #pragma once
 
 #include "geometry/kinematic_chain.h"

@@ -13,7 +13,7 @@ struct SerialConfig {
 
   std::string device;
   int baud = 9600;
-  int address = 1;         // of the head; for Pelco-D only
+  int address = 1;         // the head's address; for Pelco-D only
   double timeout_s = 0.3;  // longest wait for an answer
   mount::DriveConfig drive;
 };

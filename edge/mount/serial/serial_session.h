@@ -1,5 +1,6 @@
 // A session with a pan-tilt head on a serial line. Such a head continues at its last velocity when
-// no more orders come. If a station was killed, it stops the head at its next start.
+// no more orders come. If the station's program is killed, the head therefore moves on; the program
+// stops it at its next start.
 #pragma once
 
 #include <functional>
