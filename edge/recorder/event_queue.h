@@ -51,7 +51,7 @@ class EventQueue {
 
   // Closes the events whose last frame must have arrived by now.
   void close(double now_s);
-  // Makes next() return the unfinished events at once, without their pauses.
+  // Makes next() return the unfinished events at once, before their retry_s.
   void retry_all();
   struct Job {
     RecordedEvent* event = nullptr;      // valid until remove(*event)
