@@ -34,7 +34,7 @@ class SerialPort {
   // false if the device does not accept all of `bytes` at once.
   bool write_first(std::string_view bytes);
 
-  // Waits until all written bytes are sent, at most 0.3 s, and then changes the baud rate. Throws
+  // Waits until all written bytes are sent, but at most 0.3 s; then changes the baud rate. Throws
   // std::system_error.
   void set_baud(int baud);
 
