@@ -1,5 +1,5 @@
 // Keeps the newest fault of a station, with its time. Both remain after the fault's alarm has
-// ended. It also collects journal entries about changes for the better and for the worse. Pure.
+// ended. It also collects journal entries about conditions that begin or end. Pure.
 #pragma once
 
 #include <cstdint>
