@@ -31,7 +31,7 @@ class LearntAppearance {
   // place.
   double prominence(const Eigen::Vector2d& pixel) const;
   // How much the colours at a pixel of the newest frame resemble the target's first colours: 0 like
-  // the rest of the window, 1 like the target at first. 0 where no search took place.
+  // the rest of the window, 1 like the target at the start. 0 where no search took place.
   double first_colours(const Eigen::Vector2d& pixel) const;
   // ColourLikeness::separability() of the target's first colours; 0 where no search in a colour
   // image took place.

@@ -21,7 +21,7 @@ class ParticleFilter {
   // Puts all particles on a target that was found by other means; the next disturb() spreads them.
   void restart(const Particle& target);
   // Sets initial velocities. Half of the particles rest relative to the scene. The others rest in
-  // the image, for a target that the camera has followed.
+  // the image, because the camera may have followed the target.
   void guess_velocities(const MotionModel& motion, double sd_px_s, Random& random);
   // Gives some particles the target's usual size, because an approaching target grows faster than
   // the particles' noise allows.

@@ -27,8 +27,8 @@ struct FrameView {
 
 // The reduction factor for a target of this size.
 int reduction_for(const Eigen::Vector2d& size_px);
-// The part of `frame` inside `area`; with a reduction of 1, the whole frame, whose memory it
-// shares.
+// The part of `frame` inside `area`. With a reduction of 1, the result is the whole frame, and
+// shares the frame's memory.
 FrameView make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
 
 // The part of the view inside `area` of the full frame, smoothed with a sigma of one pixel of a
@@ -56,8 +56,8 @@ struct Template {
   bool empty = false;     // it contains only noise, so it resembles any patch of sky
 };
 
-// Standard deviation of the noise [grey levels], from a 3x3 filter that any plane leaves at zero.
-// The median over the image is used, so that edges do not count.
+// Standard deviation of the noise [grey levels], from a 3x3 filter whose response to any plane is
+// zero. The median over the image is used, so that edges do not count.
 double pixel_noise(const cv::Mat& image);
 
 // The median grey level around a box.

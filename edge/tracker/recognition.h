@@ -35,8 +35,8 @@ class Recognition {
   // If in doubt, searches for the target with the appearance that was stored while the followed
   // object was surely the target. It searches at three places: at the followed object, at the
   // target's place in the scene when the appearance was stored, and where the target would be if it
-  // had kept its velocity. After long doubt, a weaker response is enough there. If nothing is
-  // found, it searches in ever wider rings. There a candidate must also pass
+  // had kept its velocity. After long doubt, a weaker response is enough at these places. If
+  // nothing is found, it searches in ever wider rings. A candidate in a ring must also pass
   // FollowJudge::log_odds_elsewhere(). Returns the target's state, and uses the stored appearance
   // from then on; nullopt if nothing is found.
   std::optional<Particle> return_to_sure(const TrackerInput& frame,

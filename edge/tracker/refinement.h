@@ -17,8 +17,8 @@ struct RefinedPosition {
   Eigen::Matrix4d covariance_px2 = Eigen::Matrix4d::Identity();
   double correlation = 0.0;  // -1..1
   // The residuals of neighbouring pixels may be correlated: the background moves differently, the
-  // lens distorts, or the appearance has changed. This factor states how much greater the centre's
-  // variance is than with independent noise.
+  // lens distorts, or the appearance has changed. The centre's variance is then greater, by this
+  // factor, than with independent noise.
   double shared_noise = 1.0;
 
   // The position of a point of the target. `place`: the point relative to the box's centre, in

@@ -37,7 +37,7 @@ class SceneMotion {
   const std::optional<ImageMotion>& image_motion() const { return image_motion_; }
   const ReferenceFrames& references() const { return references_; }
 
-  // Time at which the alignment with earlier frames was last lost; a new scene begins there.
+  // Time at which the alignment with earlier frames was last lost; a new scene begins at this time.
   double unaligned_since_s() const { return unaligned_since_s_; }
   bool alignment_lost() const { return unaligned_since_s_ == time_s_; }  // in the newest frame
   // True if the ego-motion was known up to the previous frame and is unknown now; the cause may be

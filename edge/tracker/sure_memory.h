@@ -14,8 +14,8 @@ class SureMemory {
  public:
   struct State {
     LearntAppearance appearance;
-    // Where the target would be in the newest frame if it had continued, and if it had stopped
-    // relative to the scene.
+    // The target's state in the newest frame if it had kept its velocity (moving), and if it had
+    // stopped relative to the scene (still).
     Particle moving, still;
     // The target's position in the image at that time. A camera that follows its target keeps it at
     // this position.
@@ -25,7 +25,7 @@ class SureMemory {
 
   void clear() { newer_.reset(), older_.reset(); }
   // Offers a state; one is stored every half second. recall() returns the last but one, if there
-  // are two, because the tracker notices a mistake only some time after it.
+  // are two, because the tracker notices only after some time that it follows another object.
   void offer(const LearntAppearance& appearance, const Particle& target, double time_s);
   // Advances the stored states to the next frame.
   void advance(const MotionModel& motion, const cv::Size& frame);

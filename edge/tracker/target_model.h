@@ -39,7 +39,8 @@ class TargetModel {
 
   Similarity likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) const;
-  // A high quantile of the similarity of boxes around `box`, which do not contain the target.
+  // The similarity that background reaches by chance: the 75 % quantile over boxes around `box`,
+  // which do not contain the target.
   double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
   // The contrast of a place with its surroundings, relative to the target's usual contrast.
   double standing_out(const Scene& scene, const Eigen::Vector2d& pixel,

@@ -34,10 +34,10 @@ struct TrackerOutput {
   double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
   std::optional<ImageMotion> image_motion = {};  // from the previous frame; nullopt without texture
-  // [px] Difference, at the target, between two predictions of the scene's motion: by the predicted
-  // homography, and by the motion that the images show. At most the image diagonal. nullopt unless
-  // both exist. A large value means that angles or times are wrong. The predicted homography is
-  // compared even if it was not used.
+  // [px] Difference, at the target, between two values of the scene's motion: that of the predicted
+  // homography, and that which the images show. At most the image diagonal. nullopt unless both
+  // exist. A large value means that angles or times are wrong. The predicted homography is compared
+  // even if it was not used.
   std::optional<double> prediction_error_px;
   bool prediction_dropped = false;  // the predicted homography was impossible, and not used
 };
