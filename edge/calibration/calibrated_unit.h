@@ -20,7 +20,7 @@ class CalibratedUnit {
   // size is a turn divided by a whole number. The reported size is used only to convert reported
   // angles to counts.
   void set_count(const PanTilt& count_rad);
-  // Whether the step mode is that of the calibration: a turn has the same number of counts.
+  // Whether the step mode is that of the calibration, so that a turn has the same number of counts.
   bool fits() const { return fits_; }
 
   UnitReading reading(const PanTilt& reported, const PanTilt& rate_rad_s,
@@ -31,7 +31,7 @@ class CalibratedUnit {
   // The angles that the unit reports when it points in the direction of the ideal angles
   // `corrected`. It has moved there directly from the reported angles `here`, to which it had come
   // from the directions in `approach`. `corrected` must include whole turns of the pan axis,
-  // because the unit approaches angles a whole turn apart from different sides.
+  // because the side from which the unit approaches them depends on the whole turns.
   PanTilt reported(const PanTilt& corrected, const PanTilt& here,
                    const mount::Approach& approach) const;
 
