@@ -17,7 +17,8 @@ class FrameNumbers {
   // numbering.
   Step next(std::uint64_t id);
 
-  // Notes that the camera was reopened. A gap before its next number then does not count as a loss.
+  // Notes that the camera was reopened. Numbers that are missing before its next frame then do not
+  // count as lost.
   void restart() { running_ = false; }
 
  private:

@@ -46,7 +46,7 @@ struct AravisConfig : CameraConfig {
   int packet_size = 0;
   // If true, packets are received through the kernel's ring buffer; this needs the capability
   // CAP_NET_RAW. If false, an ordinary socket receives them. The socket loses no packets as long as
-  // the camera paces them or the socket's buffer is large.
+  // the camera spreads them over time (packet_delay_us), or the socket's buffer is large.
   bool packet_socket = false;
   int socket_buffer = 8 << 20;  // [byte] requested; the kernel grants up to net.core.rmem_max
   // The time from the start of a packet to the start of the next one. If -1, it is chosen
