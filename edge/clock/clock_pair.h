@@ -10,8 +10,8 @@ struct ClockPair {
   std::int64_t utime_us = 0;
 };
 
-// Reads both clocks. If the process is interrupted between the two readings, it reads again,
-// because the interruption would look like a step of the clock.
+// Reads both clocks. If the process is interrupted between the two readings, both clocks are read
+// again, because the interruption would look like a step of the clock.
 ClockPair read_clock_pair();
 
 }  // namespace ols::clock
