@@ -39,9 +39,10 @@ class CommandGate {
     // fresh again if the clock were set back. A station receives about this number of slews in four
     // minutes.
     std::size_t kept = 4096;
-    // Maximum number of remembered commands. Beyond it, the gate forgets commands that are still
-    // fresh, and refuses others with the same or earlier stamps. To block other senders in this
-    // way, a forger would need 130 000 commands a second, which is more than a station can read.
+    // Maximum number of remembered commands. If there are more, the gate forgets commands that are
+    // still fresh. It then refuses all commands whose stamps are not later than those of the
+    // forgotten ones. To block other senders in this way, a forger would need 130 000 commands a
+    // second, which is more than a station can read.
     std::size_t most = 65536;
   };
   // `began_utime_us`: when this process began. Commands with earlier stamps are refused as
