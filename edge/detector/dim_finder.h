@@ -18,9 +18,9 @@
 namespace ols::detector {
 
 struct DimConfig {
-  // Thresholds, in standard deviations of a sum. peak_sd: a peak of the shift and stack over eight
-  // images; such a peak is examined more closely. line_sd: the sum along the best straight path
-  // through sixteen images. next_sd: each later sum of eight images.
+  // Thresholds, in standard deviations of a sum. peak_sd: for a peak of the shift and stack over
+  // eight images, which is then examined more closely. line_sd: for the sum along the best straight
+  // path through sixteen images. next_sd: for each later sum of eight images.
   double peak_sd = 4.6, line_sd = 6.2, next_sd = 3.6;
   // Least speed relative to the scene, per image; slower points belong to the scene.
   double least_px = 0.6;

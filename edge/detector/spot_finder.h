@@ -23,10 +23,10 @@ struct SpotConfig {
 };
 
 // The threshold at each place follows from the spread of grey levels in the ring around it
-// (order-statistic constant false alarm rate). The ring around a branch, a text or the edge of a
-// cloud contains more of the same, which raises the threshold; the ring around a target does not. A
-// bright target does not raise the threshold for its neighbour, because order statistics ignore
-// outliers.
+// (order-statistic constant false alarm rate). The ring around a part of a branch, a text or a
+// cloud's edge contains further parts of it, which raise the threshold; the ring around a target
+// does not. A bright target does not raise the threshold for its neighbour, because order
+// statistics ignore outliers.
 class SpotFinder {
  public:
   explicit SpotFinder(const SpotConfig& config)

@@ -29,8 +29,8 @@ class Tracklet {
     ++unseen_images_;
   }
 
-  // Whether the detection has about the same size, and is brighter than its surroundings if and
-  // only if the tracklet is.
+  // Whether the detection has about the tracklet's size, and differs from its surroundings in the
+  // same direction (brighter or darker).
   bool resembles(const Detection& detection) const;
   // distance(): the squared distance between prediction and detection, divided by its variance.
   // density(): the predicted probability density at the detection [1/px^2].
@@ -75,7 +75,8 @@ class Tracklet {
   // reach_px(): its largest distance so far from the pixel where it began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
   double reach_px() const { return reach_px_; }
-  // The distance from a star that was at the tracklet's first place when the tracklet began.
+  // The tracklet's distance from an imagined star, which was at the tracklet's first place when the
+  // tracklet began.
   double off_star_px() const { return (pixel_ - star_).norm(); }
   // How far that star has moved since then, relative to the scene.
   double star_path_px() const { return (star_ - origin_).norm(); }
@@ -95,7 +96,8 @@ class Tracklet {
   // The places where it began (origin_), where it was at the last mark, at most 0.2 s ago (mark_),
   // and where it was at most three seconds ago (rest_). All three move with the scene.
   Eigen::Vector2d origin_, mark_, rest_;
-  Eigen::Vector2d star_;         // present place of a star that was at the tracklet's first place
+  // Present place of an imagined star that was at the tracklet's first place.
+  Eigen::Vector2d star_;
   Eigen::Vector2d first_pixel_;  // the pixel where it began
   Eigen::Vector2d measured_pixel_;
   double measured_sd_px_;

@@ -22,7 +22,7 @@ struct TrackletConfig {
   // the log likelihood ratio of its tracklet.
   double most_log_ratio = 1.5;         // for a spot against a clear sky
   double most_ground_log_ratio = 0.7;  // for anything else
-  // What each further detection of a dim point (Evidence::kStack) adds to the log likelihood ratio.
+  // Each further detection of a dim point (Evidence::kStack) adds this to the log likelihood ratio.
   // Noise produces such a detection on a given path only once in 250 tries.
   double stack_log_ratio = 4.0;
   double least_directness =
