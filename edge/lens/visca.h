@@ -14,8 +14,8 @@
 
 namespace ols::lens::visca {
 
-// The values in packets for the ends of the travel. Zoom values above kZoomLongest are digital
-// zoom.
+// The values that represent the ends of the travel in packets. Zoom values above kZoomLongest are
+// digital zoom.
 inline constexpr int kZoomLongest = 0x4000;
 inline constexpr int kFocusFar = 0x1000, kFocusNear = 0xf000;
 inline constexpr int kIrisOpen = 0x11;
