@@ -128,7 +128,8 @@ class StationBus {
   std::map<std::string, double> counters_;
   std::map<std::string, std::int64_t> sequences_;
   std::vector<Answer> answers_;
-  // Limits of the rates of answers. Several operators may each repeat a stop 50 times a second.
+  // Maximum rates of answers. kAccepted_Hz is high, because several operators may each repeat a
+  // stop 50 times a second.
   static constexpr double kAccepted_Hz = 300.0, kRefused_Hz = 50.0;
   trust::RateLimit accepted_sent_{kAccepted_Hz}, refused_sent_{kRefused_Hz};
   // Stops that end_turn() must answer: the last one of each sender. Shared with the bus's thread.
