@@ -4,13 +4,12 @@
 // It is a Kalman filter. Its state is the angle at the newest report and three causes of
 // differences between reports and pictures: an error of time that all reports share; a scale error
 // (the mount's gain, the lens's focal length); and a motion of the scene itself (clouds). These
-// three can be distinguished only if the rate changes. Their true values change slowly; old
+// three can be distinguished only if the mount's rate changes. Their true values change slowly; old
 // information about them is therefore gradually forgotten.
 //
 // The error of a report depends on the reported position. Another report of the same position
-// therefore does not improve the angle. Reports of other positions improve it only by the part of
-// the stated error that actually scatters. The rest of the stated error (backlash, for example) is
-// constant.
+// therefore does not improve the angle. Reports of other positions improve the angle only as far as
+// their errors actually scatter. The rest of the stated error (backlash, for example) is constant.
 #pragma once
 
 #include <Eigen/Core>
@@ -72,7 +71,7 @@ class CarriedAxis {
   std::optional<Matrix> covariance_;
   double used_turned_rad_ = 0.0;  // turned_rad at the last report that updated the state
   double place_rad2_ = 0.0;       // place_variance_rad2 of the newest report
-  // Mean square error of the reports that changes from position to position.
+  // Mean square of the part of the reports' error that changes from position to position.
   double scatter_rad2_ = 0.0;
 };
 
