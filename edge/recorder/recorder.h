@@ -22,9 +22,9 @@ struct RecorderConfig {
   double memory_s = 5.0;  // length of the ring buffer, which contains the frames before an event
   double memory_max_bytes = 256e6;
   double quota_bytes = 4e9;  // limit for all events together
-  // In any period of this length, at most one event is removed to make room, and only one that is
-  // older than protect_s. Recordings that still do not fit are refused. The default is one day,
-  // because people check a site and its alarms once a day.
+  // In any period of this length, at most one event is removed to make room; the event must be
+  // older than this. Recordings that still do not fit are refused. The default is one day, because
+  // people check a site and its alarms once a day.
   double protect_s = 86400.0;
   double disk_reserve_bytes = 1e9;  // free space that recordings always leave on the disk
   double event_max_s = 60.0;
