@@ -30,8 +30,8 @@ GnssReading gnss_from_gpsd(const gps_data_t& data, const std::optional<GstSigmas
                            double time_s, double error_sigmas = 1.0);
 
 // Combines TPV messages (fix) with GST messages (errors) of the same epoch, which may arrive in
-// either order. A fix is returned without GST if its GST does not arrive within 0.3 s, or before
-// the next fix.
+// either order. A fix waits for its GST for 0.3 s, but not beyond the next fix; then it is returned
+// without GST.
 class GpsdEpochs {
  public:
   explicit GpsdEpochs(double error_sigmas = 1.0) : error_sigmas_(error_sigmas) {}
