@@ -20,7 +20,7 @@ inline constexpr double kHeadingSd_rad = radians(0.3), kTiltSd_rad = radians(0.1
 
 // Direction and camera of a picture, as the station states them.
 struct PictureView {
-  // Rotates from the camera to east, north, up at the map's camera.
+  // Rotates from the camera's axes to east, north, up at the place for which the map was made.
   Eigen::Matrix3d R_enu_cam = Eigen::Matrix3d::Identity();
   CameraIntrinsics camera;
   // 1-sigma of the picture's directions, as the station states them.

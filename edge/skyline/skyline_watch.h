@@ -61,9 +61,9 @@ class SkylineWatch {
   double difference_sd_rad() const;
   bool disagrees() const { return disagrees_; }
   // Each column of the skyline as it was seen last; empty before anything is seen. A column that
-  // disagrees with the land is included only after kPictures pictures have shown it at the same
-  // elevation, to within kSame_rad, over at least kApart_s. It is removed when a picture shows the
-  // land there, or when it has not been seen for kKept_s.
+  // disagrees with the land is included only after several pictures have confirmed it: at least
+  // kPictures, taken over at least kApart_s, with elevations that agree to within kSame_rad. It is
+  // removed when a picture shows the land there, or when it has not been seen for kKept_s.
   const HidingSkyline& hiding() const { return hiding_; }
   // Continues `earlier`, a saved skyline, as soon as a picture is taken at the place from which
   // that skyline was seen.
