@@ -26,7 +26,7 @@ enum class CameraState {
 
 struct CameraCounters {                 // they only increase
   std::uint64_t frames_captured = 0;    // complete frames with the configured size and format
-  std::uint64_t frames_lost = 0;        // frames missing in the camera's numbering
+  std::uint64_t frames_lost = 0;        // frames whose numbers are missing
   std::uint64_t frames_incomplete = 0;  // frames with missing packets
   // Captured frames that a newer one replaced before next() returned them.
   std::uint64_t frames_late = 0;
