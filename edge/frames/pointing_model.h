@@ -73,8 +73,8 @@ class PointingModel {
   // The unit's state at a time. `stamp_sd_s`: 1-sigma of this time, if it is the time stamp of a
   // picture; the covariance includes its effect.
   std::optional<UnitAngles> angles_at(double time_s, double stamp_sd_s = 0.0) const;
-  // nullopt if the unit has not reported angles before and after the instant, or the size of its
-  // counts.
+  // The unit's readings at an instant. nullopt if the unit has not reported angles before and after
+  // the instant, or has not reported the size of its counts.
   std::optional<ExposedCounts> counts_at(double time_s) const;
   // The angles at the time of the newest sample; 0 before the first sample.
   PanTilt angles_now() const;
