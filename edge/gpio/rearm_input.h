@@ -18,13 +18,14 @@ class RearmInput {
   void interrupted();
   // Returns true if the button has been held long enough, but only once for each press.
   bool take(double now_s);
-  // The time from which take() returns true if no edge comes before; nullopt if the button is not
-  // held.
+  // The time from which take() returns true if no edge comes until then; nullopt if the button is
+  // not held.
   std::optional<double> due_s() const;
 
  private:
   double hold_s_;
-  bool seen_open_ = false;          // since the start, the last interruption, or the last re-arming
+  // Seen open since the start, the last interruption, or the last re-arming.
+  bool seen_open_ = false;
   std::optional<double> closed_s_;  // time since which the button is held
 };
 

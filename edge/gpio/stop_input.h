@@ -19,7 +19,7 @@ class StopInput {
   // Whether the stop counts as pressed. nullopt before the first level, and while the first level
   // is a release that is not stable yet.
   std::optional<bool> pressed(double now_s) const;
-  // The time from which pressed() is false if no edge comes before; nullopt unless the line is
+  // The time from which pressed() is false if no edge comes until then; nullopt unless the line is
   // released.
   std::optional<double> due_s() const;
 
