@@ -30,8 +30,8 @@ std::string exposure_by_hand();
 
 std::string ask_position(Axis axis);
 std::string go_to(Axis axis, double position);
-// Begins a motion at this rate. Zoom and focus move until stand(), at that of the eight speeds
-// which is nearest to the rate. The iris moves by a single step.
+// Begins a motion at this rate. Zoom and focus move until stand(); of the eight speeds, the one
+// nearest to the rate is used. The iris moves by a single step.
 std::string go_on(Axis axis, double rate);
 // Stops the axis. Empty for the iris, because it stops after each step.
 std::string stand(Axis axis);
