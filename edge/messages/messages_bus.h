@@ -1,7 +1,7 @@
 // Connects a station to the bus: receives and answers commands, and sends bearings, status and
-// previews. It decodes each command, checks its addressee and freshness, and counts refused ones;
-// all other decisions are the station's. A station also runs without a network; this class then
-// tries to connect every second.
+// previews. It decodes each command, checks its addressee and freshness, and counts the commands
+// that it refuses; all other decisions are the station's. A station also runs without a network;
+// this class then tries to connect every second.
 #pragma once
 
 #include <cstdint>
