@@ -1,5 +1,6 @@
-// A session with a telescope mount behind an INDI server. The reported positions are used without a
-// model of the telescope's errors, as long as the telescope stays on its side of the pier.
+// A session with a telescope mount behind an INDI server. The reported positions are used as they
+// are, without a model of the telescope's errors, but only while the telescope stays on its side of
+// the pier.
 //
 // An INDI telescope continues at its last track rate when its client is gone. If the station's
 // program is killed, the telescope therefore moves on; the program stops it at its next start.
