@@ -56,7 +56,7 @@ class DeviceSet {
   StopLatch& stop() { return stop_; }
   const StopLatch& stop() const { return stop_; }
 
-  // Passes the sensors' readings since the last call to `estimator`.
+  // Gives `estimator` the readings that the sensors have made since the last call.
   void feed(sensors::PoseEstimator& estimator);
   // Permits the mount to move after an emergency stop, unless the stop has been pressed again. Also
   // needed once after the start, if a stop is configured: the constructor halts the mount, because
