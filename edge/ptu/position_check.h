@@ -17,9 +17,9 @@ namespace ols::ptu {
 
 class PositionCheck {
  public:
-  // The numbers 0 and 0.5 are correlations, of the errors of the times of an axis's two readings.
-  // Pan: no correlation, because its first reading is the first of the cycle, and nothing delays
-  // it. Tilt: the same work of the unit delays both readings.
+  // 0 and 0.5 are the correlations between the time errors of an axis's two readings. Pan: no
+  // correlation, because its first reading is the first of the cycle, and nothing delays it. Tilt:
+  // the same work of the unit delays both readings.
   explicit PositionCheck(const PtuFacts& facts) : pan_{facts.pan, 0.0}, tilt_{facts.tilt, 0.5} {}
 
   enum class Verdict {
@@ -49,7 +49,7 @@ class PositionCheck {
   };
   struct Axis {
     PtuAxisFacts facts;
-    double correlation;  // of the errors of the times of the two readings
+    double correlation;  // between the time errors of the two readings
     std::optional<Merged> last = {};
     double rate_counts_s = 0.0;
     bool rate_known = false;
