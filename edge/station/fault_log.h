@@ -17,9 +17,9 @@ namespace ols::station {
 class FaultLog {
  public:
   // `what`: the current error of a source. `number`: how many errors the source has had so far; a
-  // new number marks a new error even if its text is the same. If the same text comes again within
-  // a minute, it is not a new fault. Otherwise an absent device, which is retried each second,
-  // would hide other faults.
+  // new number marks a new error even if its text is the same. An error with the same text within a
+  // minute is not a new fault. Otherwise an absent device, which is retried each second, would hide
+  // other faults.
   void note(const std::string& source, const std::string& what, std::uint64_t number,
             std::int64_t utime_us);
   // Like note(), for the failure of an operator's action. Each failure is a new fault.

@@ -17,8 +17,9 @@ namespace ols::station {
 class PersistedStationState {
  public:
   // Reads the files ID.hold and ID.doubt in `folder`. If `folder` is empty, nothing is saved, and
-  // the state is unknown. `has_stop`: the station has an emergency stop. If the file is then
-  // damaged, it may have recorded an emergency, and the station starts in kEmergency.
+  // the state is unknown. `has_stop`: whether the station has an emergency stop. If it has one and
+  // ID.hold is damaged, this file may have recorded an emergency; the station then starts in
+  // kEmergency.
   PersistedStationState(const std::string& folder, const std::string& id, bool has_stop);
 
   // The state at the start: kIdle, kStopped or kEmergency.

@@ -151,7 +151,7 @@ class Station {
   std::optional<cv::Rect2d> target_box() const;  // in the newest frame
   StationSnapshot snapshot() const;
   // The newest frame for a viewer, without its utime. nullopt if the newest frame has another
-  // mid-exposure, because the expected one was refused.
+  // mid-exposure; the station has then refused the expected frame.
   std::optional<video::VideoFrame> video_frame(double mid_exposure_s) const;
   // A recent picture that may show the skyline of the land (skyline_picture.h). nullopt if there is
   // none, or while the mount's angles are not trusted.
