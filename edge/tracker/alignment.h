@@ -8,8 +8,7 @@
 
 namespace ols::tracker {
 
-// The pixels of the reduced frame that are touched by an area of the full frame; limited to the
-// image.
+// The pixels of the reduced frame that an area of the full frame touches; limited to the image.
 cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area);
 
 // The earlier image as the camera would see it now. Places outside the earlier image are copied

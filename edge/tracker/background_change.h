@@ -11,8 +11,8 @@ namespace ols::tracker {
 // divided by the median of the mean differences in the eight neighbouring boxes. It is about 0 for
 // background, even if the images are badly aligned or the light has changed. It is positive for an
 // object that was not there before. The difference at a pixel is the distance of its grey level
-// from the range of the reference's grey levels near that pixel, within a sixteenth of the box's
-// side.
+// from a range: the range of the reference's grey levels around this pixel, up to a sixteenth of
+// the box's side away.
 double background_change(const cv::Mat& gray, const ReferenceFrames::Reference& reference,
                          const cv::Rect2d& box);
 

@@ -1,7 +1,7 @@
 // Learns which colours distinguish the target from its surroundings, by two colour histograms: L.
 // Bertinetto, J. Valmadre, S. Golodetz, O. Miksik, P. H. S. Torr, "Staple: complementary learners
-// for real-time tracking", CVPR 2016. The colours still fit if the target turns or changes its
-// posture, while the correlation filter does not.
+// for real-time tracking", CVPR 2016. If the target turns or changes its posture, its colours still
+// fit, but the correlation filter does not.
 #pragma once
 
 #include <vector>

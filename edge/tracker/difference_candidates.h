@@ -12,7 +12,7 @@
 namespace ols::tracker {
 
 // Returns up to `most` maxima of the frame difference inside `area`, strongest first. The
-// difference is smoothed over the target's size, `size_px`, and the maxima are at least that far
+// difference is smoothed over the target's size, `size_px`, and the maxima are at least this size
 // apart. `homography` maps the previous frame's pixels to those of this frame. All positions are in
 // full-frame pixels.
 std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,

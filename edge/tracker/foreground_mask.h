@@ -47,8 +47,8 @@ FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& ar
                           const Template& target);
 
 // Computes |frame - reference| inside `area` of the frame, scaled so that 0..255 mean a foreground
-// of 0..1. A difference of twice Template::noise counts as 0, and of half of Template::contrast as
-// 1.
+// of 0..1. A difference of twice Template::noise counts as 0; a difference of half of
+// Template::contrast counts as 1.
 FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
                           const cv::Rect& area, const Template& target);
 

@@ -46,7 +46,7 @@ class LearntAppearance {
     Response filter;   // relative to the usual one
     Response colours;  // ColourLikeness::respond()
     Response both;     // their weighted mean
-    Response first;    // of the first colours
+    Response first;    // response of first_colours_
     bool in_colour = false;
   };
 

@@ -23,7 +23,7 @@ double usable_interval_s(double from_s, double to_s);
 
 // Limits the particle's position to one frame size outside the frame, its velocity to ten frame
 // widths a second, and its size to 3 px .. the frame's size. Pixel values therefore cannot
-// overflow, whatever the clock, the homography or a hint says.
+// overflow, whatever the clock, the homography or the caller of search_near() says.
 Particle bounded(const Particle& particle, const cv::Size& frame);
 
 // Applies the motion model to particles, whose velocities are relative to the scene. Without a
@@ -34,9 +34,9 @@ class MotionModel {
  public:
   explicit MotionModel(const TrackerConfig& config) : config_(config) {}
 
-  // Starts a frame: the functions below use this motion of the camera, with its rate at `pixel` of
-  // the previous frame. Returns the change [px/s] that the caller must add to all velocities
-  // relative to the scene; see the class.
+  // Starts a frame: the functions below use this motion of the camera. Its rate in the image [px/s]
+  // is taken at `pixel` of the previous frame. Returns the change [px/s] that the caller must add
+  // to all velocities relative to the scene; see the class.
   Eigen::Vector2d begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel);
 
   // The particle's prediction without noise.
