@@ -1,10 +1,10 @@
 // Determines the exposure time of each frame while the exposure changes from time to time. Pure.
 //
-// The camera does not report the exposure of a frame: the chunk data of a GT1290C cannot be
-// switched on while it streams. A frame that began before a change was requested has the old
-// exposure. A frame that began more than a frame period after the camera confirmed the change has
-// the new one. For frames in between, both are possible, because the camera may have prepared its
-// next exposure before the change.
+// The camera does not report the exposure of a frame: a GT1290C cannot switch on its chunk data
+// while it streams. A frame that began before a change was requested has the old exposure. A frame
+// that began more than a frame period after the camera confirmed the change has the new one. For
+// frames in between, both are possible, because the camera may have prepared its next exposure
+// before the change.
 #pragma once
 
 #include <deque>

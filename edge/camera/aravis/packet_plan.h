@@ -18,7 +18,7 @@ struct StreamNeed {
   double spread = 0.6;             // share of the frame period over which the packets are spread
 };
 
-// If the buffer holds three frames, it receives them at full speed, without a delay between
+// If the receive buffer holds three frames, the camera sends at full speed, without a delay between
 // packets. A smaller buffer would overflow when the receiving thread sleeps too long. The packets
 // are then spread over time, so a frame is complete later.
 PacketPlan plan_packets(const StreamNeed& need);
