@@ -35,9 +35,9 @@ class CommandGate {
   struct Config {
     double clock_margin_s = 0.5;  // maximum difference between the two clocks
     double lease_max_s = 10.0;
-    // This number of commands is always remembered, however old they are, because they would become
-    // fresh again if the clock were set back. A station receives about this number of slews in four
-    // minutes.
+    // Number of commands that are always remembered: the newest ones, however old they are. They
+    // would become fresh again if the clock were set back. A station receives about this number of
+    // slews in four minutes.
     std::size_t kept = 4096;
     // Maximum number of remembered commands. If there are more, the gate forgets commands that are
     // still fresh. It then refuses all commands whose stamps are not later than those of the
