@@ -34,7 +34,7 @@ bool blocked(const std::vector<KeepOut>& regions, const PanTilt& at);
 // The shortest path from `from` to `to` within `travel` that crosses no region. Returns its
 // corners: moves from corner to corner are free, and the last corner is `to`. If the direct move is
 // free, `to` is the only corner. If `from` is inside a region, the first corner is the nearest free
-// position outside, along one axis. nullopt if there is no such path.
+// position outside that a motion of one axis reaches. nullopt if there is no such path.
 std::optional<std::vector<PanTilt>> way_round(const AngleBox& travel,
                                               const std::vector<KeepOut>& regions,
                                               const PanTilt& from, const PanTilt& to);

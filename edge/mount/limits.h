@@ -9,7 +9,8 @@
 
 namespace ols::mount {
 
-// The size of a count for mounts that do not report counts; a station reports all angles in counts.
+// The size of a count for mounts that do not report counts. It is needed because a station reports
+// all angles in counts.
 inline constexpr double kVirtualCount_rad = radians(1e-4);
 
 struct Limits {  // [rad]

@@ -14,8 +14,8 @@ namespace ols::mount {
 struct SeenTurn {
   // Mid-exposures of the two pictures, on the station's monotonic clock.
   double from_s = 0.0, to_s = 0.0;
-  // For a rolling shutter: in each of the two pictures, the rows in which the rotation was measured
-  // were exposed by this time later than from_s or to_s. 0 for a global shutter.
+  // For a rolling shutter: the rows in which the rotation was measured were exposed this long after
+  // from_s and to_s. 0 for a global shutter.
   double row_s = 0.0;
   double stamp_sd_s = 0.0;  // 1-sigma of an error that the stamps of all pictures share
   PanTilt turn;

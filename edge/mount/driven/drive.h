@@ -154,7 +154,8 @@ class Drive {
   bool distrusted_ = false;
   // No motion is ordered before this time, because the mount has refused or ignored one.
   double refused_until_s_ = -1e9;
-  // When the mount was last observed to move without an order, not to stop, and to ignore an order.
+  // Times at which it was last observed that the mount moved without an order, did not stop, or
+  // ignored an order.
   std::optional<double> unordered_s_, unstopped_s_, ignored_s_;
   Counters counters_;
 };

@@ -27,10 +27,10 @@ struct SharedDrive {
   bool usable = true;          // false: the reported angles must not be used
   std::string words;           // description of the mount and its capabilities
   std::string last_error;      // empty if there was none
-  std::vector<Alarm> alarms;   // of this kind
+  std::vector<Alarm> alarms;   // of this kind of mount
   std::optional<Alarm> fault;  // why the session does not connect at present
   std::uint64_t orders = 0, errors = 0;
-  std::map<std::string, std::uint64_t> counters;  // of this kind
+  std::map<std::string, std::uint64_t> counters;  // of this kind of mount
 
   explicit SharedDrive(const DriveConfig& config) : drive(config) {}
   // Waits for `seconds`. Ends earlier in an emergency, or when the end of the thread is requested

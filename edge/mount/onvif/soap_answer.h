@@ -1,7 +1,7 @@
 // Parses the answers of an ONVIF camera. Pure. Elements are found by their local names, because
 // cameras use different prefixes, and some cameras do not declare their prefixes. Only the five
 // predefined entities of XML are expanded; document types are ignored. If a value is missing, not a
-// finite number, or absurdly large, an AnswerError with its name is thrown.
+// finite number, or absurdly large, an AnswerError that names the value is thrown.
 #pragma once
 
 #include <cstdint>
