@@ -48,7 +48,7 @@ class DeviceSet {
 
   camera::Camera& camera() { return *chosen_.camera; }
   mount::Mount& mount() { return *chosen_.mount; }
-  // The following ones are null, or nullopt, if not configured.
+  // The following functions return null or nullopt if the device is not configured.
   gpio::GpioHandover* gpio() { return gpio_.get(); }
   lens::LensHandover* lens() { return chosen_.lens.get(); }
   std::optional<recorder::Recorder>& recorder() { return recorder_; }
