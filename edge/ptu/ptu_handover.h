@@ -25,8 +25,8 @@ class PtuHandover : public mount::Mount {
   std::vector<mount::AngleSample> take_samples() override;
   std::optional<mount::Limits> limits() const override;
 
-  // The bytes in the output queue are discarded, and a halt is sent first. Halts are repeated until
-  // the reported positions no longer change.
+  // Discards the bytes in the output queue, and sends a halt first. Halts are repeated
+  // until the reported positions no longer change.
   void emergency_halt() override;
   void clear_emergency() override;
 
