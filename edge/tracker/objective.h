@@ -44,8 +44,8 @@ class Objective {
   Similarity operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
 
  private:
-  // Factor for the correlation of an inverted patch. A warm target in front of a warming sky does
-  // change from bright to dark, but rarely.
+  // Factor for the correlation of an inverted patch. Inversion is possible, but rare: in infrared
+  // light, a warm target changes from bright to dark if the sky behind it becomes warmer.
   static constexpr float kInverted = 0.9F;
   static constexpr Patch ones() {
     Patch patch{};
