@@ -23,12 +23,14 @@ struct AdmissionConfig {
   // When this number of stations is reached, a new station replaces another one
   // (station_registry.h).
   int max_stations = 1024;
-  // A station that has been silent for longer than this does not count in the median "now".
+  // A station that has been silent for longer than this does not count in the median that gives
+  // "now" (message_time.h).
   double silence_s = Activity::kDeliversS;
   ClockMonitorConfig clocks{};
 };
 
-// The fate of a bearing, and changes of its station after which the fusion must forget something.
+// The fate of a bearing. Also those changes of its station that oblige the fusion to forget
+// something that it knew about the station.
 struct Admitted {
   BearingRefusal refusal = BearingRefusal::kNone;
   KnownStation* station = nullptr;       // the sender of an admitted bearing

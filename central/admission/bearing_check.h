@@ -28,8 +28,8 @@ const char* to_string(BearingRefusal refusal);
 // An explanation for a person: what is wrong, and where to look.
 std::string_view in_words(BearingRefusal refusal);
 
-// Whether a station can be at this position: it is near the Earth's surface, and its standard
-// deviation is valid.
+// Whether a station can be at this position: the position is near the Earth's surface, and the
+// standard deviation of the position is valid.
 bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m);
 
 BearingRefusal check(const BearingMeasurement& measurement);

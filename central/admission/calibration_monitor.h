@@ -17,7 +17,7 @@ enum class CalibrationState { kNone, kInUse, kRefused, kDoubted };
 // A station's calibration, as the station states it.
 struct StatedCalibration {
   CalibrationState state = CalibrationState::kNone;
-  std::int64_t observed_utime_us = 0;  // time of its last observation; 0 if not stated
+  std::int64_t observed_utime_us = 0;  // time of the calibration's last observation; 0: not stated
   double sd_rad = std::numeric_limits<double>::quiet_NaN();  // 1-sigma of a direction, each axis
 };
 

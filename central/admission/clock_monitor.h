@@ -14,8 +14,8 @@
 //    looks like a slow clock. The offset is therefore the smallest one among the station's last
 //    stamps; and a station that reports a synchronised clock is not quarantined for being behind.
 //
-// The quarantine ends when neither reason has applied for release_s. For this, the limits are 0.7
-// times as large.
+// The quarantine ends when neither reason has applied for release_s. While a station is
+// quarantined, both limits are reduced to 0.7 times their values.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ namespace ols::fusion {
 struct ClockMonitorConfig {
   double error_limit_s = 0.1;    // 1-sigma as stated by the station
   double offset_limit_s = 0.4;   // offset from the median
-  double usual_offset_s = 0.15;  // offset explained by the frames' phases and by network delays
+  double usual_offset_s = 0.15;  // offsets up to this come from frames' phases and network delays
   double release_s = 3.0;
   int stamps = 15;  // number of stamps per station that are compared
 };
@@ -62,8 +62,8 @@ class ClockMonitor {
     double bad_s = 0.0;  // MessageTime's elapsed time at the last bad stamp
   };
 
-  // The smallest offset of the last `stamps` stamps; 0 if they differ in sign, or if there are
-  // fewer stamps.
+  // The smallest of the offsets of the last `stamps` stamps; 0 if these offsets differ in sign, or
+  // if there are fewer than `stamps`.
   double common_offset_s(const Station& station) const;
   bool others_are_better(const std::string& station, const MessageTime& time) const;
   Alarm judge(const std::string& name, const Station& station, const MessageTime& time) const;

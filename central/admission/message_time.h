@@ -38,7 +38,8 @@ class MessageTime {
   // The delivering stations, and their number.
   std::vector<std::string> delivering() const;
   std::size_t delivering_count() const { return delivering_; }
-  // Elapsed time: the largest progress of any station's stamps. Steps of a clock are clipped.
+  // The time that has passed since the start: the largest progress of any station's stamps. A step
+  // of a clock counts as at most half of silence_s.
   double elapsed_s() const { return elapsed_s_; }
   void forget(const std::string& station);
 

@@ -1,4 +1,5 @@
-// One station's exposures of the last second, to detect duplicates and floods. Pure.
+// One station's exposures of the last second, to detect duplicates and floods (too many bearings
+// per second). Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,8 @@ namespace ols::fusion {
 
 class RecentExposures {
  public:
-  // Whether a bearing is a duplicate: the same exposure, and the same object or the same direction.
+  // Whether a bearing is a duplicate of a stored one: both are of the same exposure, and they have
+  // the same object or the same direction.
   bool has(const BearingMeasurement& measurement) const;
   // Advances the time to this bearing, and forgets exposures that are more than a second older.
   // Must also be called for refused bearings: otherwise a station would be refused for ever after

@@ -54,8 +54,8 @@ class StationRegistry {
   // names: the stations of the site; if empty, all stations belong to it. most: the largest number
   // of stations. When it is reached, a new station replaces another one: if possible, a station
   // that has sent no bearing; otherwise, a station that has sent fewer than 10, or has been silent
-  // for more than 10 s. Of several, the one that has been silent longest is replaced. If there is
-  // none, the new station is not admitted.
+  // for more than 10 s. Of several such stations, the one that has been silent longest is replaced.
+  // If there is no such station, the new station is not admitted.
   StationRegistry(const std::vector<std::string>& names, int most) : names_(names), most_(most) {}
 
   bool belongs(const std::string& station) const;

@@ -55,7 +55,8 @@ class FusionProcess {
   struct Errors {
     std::string last{}, told{}, of_fusion{};
 
-    // Returns the error that is new since the last status; if there is none, the last one.
+    // Returns the error that has occurred since the last status; if none has, the error that the
+    // last status stated.
     const std::string& newest(const std::string& of_fusion_now);
   };
   // The time from a target's epoch to its publication.

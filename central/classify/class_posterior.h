@@ -3,9 +3,10 @@
 // A look is one set of measurements of the target. A look has six features: size, speed, climb,
 // acceleration across the path, height above the ground, and flicker. For each kind of object
 // (class_table.h), the probability density of the features is a mixture of normal distributions.
-// Flicker is the relative variance of the outline's two sides within a second; wings and rotors are
+// Flicker is the sum of two relative variances within a second: that of the outline's largest
+// extent, and that of the smaller side of the upright box around the outline. Wings and rotors are
 // part of the outline. A bird's outline changes with its wing beat of 2 to 15 Hz, a rigid body's
-// does not. Seen from the side, wings change only the shorter side. The variance of each feature's
+// does not. Seen from the side, wings change only the smaller side. The variance of each feature's
 // error is added to that of the density: an uncertain look therefore has little influence. An
 // unknown feature is left out.
 //
@@ -13,8 +14,8 @@
 // Their log-likelihoods are therefore averaged, and the average counts as a number of independent
 // looks. For the features that change little over an object's life (size, cruising speed, height),
 // this number is 1. For the other features, given these, it is 1 + t / kCorrelation_s after t
-// seconds, at most kMostLooks. The weight of a look falls to 37 % in kMemory_s: if a track passes
-// to another object, the class changes.
+// seconds, at most kMostLooks. The weight of a look falls to 37 % in kMemory_s. Therefore, if a
+// track passes to another object, the class changes, too.
 //
 // A target is 'unknown' until it has been looked at for a second and one class has a posterior of
 // at least 0.9. A look without a size is ignored, because motion alone does not distinguish a
@@ -53,7 +54,8 @@ struct ClassLook {
   Measured climb_m_s;    // vertical speed, positive up
   Measured across_m_s2;  // acceleration across the path
   Measured height_m;     // above the ground
-  // Relative variance of both sides of the outline within a second, with their noise removed.
+  // The sum of the relative variances of the outline's largest extent and of its smaller side,
+  // within a second, without the variance that noise causes.
   Measured flicker;
 };
 

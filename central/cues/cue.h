@@ -29,7 +29,7 @@ struct CueConfig {
   CueAllowance allow = CueAllowance::kAsk;
   double range_m = 20e3;      // largest distance from the nearest station
   double max_age_s = 10.0;    // largest time since the source measured the position
-  double most_sd_m = 2000.0;  // stations do not search for a less certain cue
+  double most_sd_m = 2000.0;  // cues with a larger horizontal or vertical 1-sigma are refused
   // 1-sigma of the assumed acceleration. It determines how fast the uncertainty grows.
   double acceleration_sd_m_s2 = 3.0;
   int most = 32;  // largest number of cues at the same time

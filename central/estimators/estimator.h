@@ -61,8 +61,9 @@ class Estimator {
 
 inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
 
-// Whether the estimator predicts the target's motion. Such an estimator is nearly as accurate at an
-// instant after a station's last bearing; other estimators have to extrapolate the bearings.
+// Whether the estimator predicts the target's motion. Such an estimator is nearly as accurate
+// shortly after a station's last bearing as at that bearing. Other estimators have to extrapolate
+// the bearings.
 inline bool predicts(std::string_view name) { return name == "filter"; }
 
 // Returns null for an unknown name.

@@ -21,9 +21,9 @@ enum class PaperPairs {
 // The parts of the paper's estimator. Each can be switched separately.
 struct PaperConfig {
   PaperPairs pairs = PaperPairs::kAlgorithm1;
-  bool by_belief = true;           // false: both views are turned by half of the angle
+  bool by_belief = true;           // false: each view is turned by half of alpha (paper_two_view())
   int moving_average = 10;         // number h of averaged estimates; 1 for no averaging
-  double min_crossing_rad = 1e-4;  // if u' and v' cross at less, they count as parallel
+  double min_crossing_rad = 1e-4;  // turned vectors that cross at a smaller angle count as parallel
   double max_range_m = 500e3;
   // Largest number of stations that are used for a target, in the order of their ids; 0: all.
   int max_stations = 0;
@@ -54,7 +54,7 @@ PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
 //    unit(T' - bc_i)). T' is the centroid of the pairs' points, bc_i the centre of baseline i, and
 //    n_i its normal towards T'. The paper prints the exponent with the vector T' - bc_i itself,
 //    which overflows at a few hundred metres. According to the paper's text, the weights express
-//    the angle. The unit vector is therefore used here.
+//    the angle between n_i and this vector. The unit vector is therefore used here.
 //  - Best baseline: the pair with the largest t_i . n_i, where t_i is the direction from the
 //    baseline's centre to the target.
 PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& config = {});

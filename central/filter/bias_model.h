@@ -63,12 +63,13 @@ struct BiasModelConfig {
 };
 
 // The prior of one station's bias in the direction of a target, and the priors of its causes. The
-// first cause is a small rotation of the station (about east, north, up: two equal tilts and a
-// heading). The second is an elevation error that is fixed in the camera, from its mounting. With
-// position_states, the third is an error of the station's position, together with the aim
-// (LineOfSight::aim_sd_rad). These two share their states, because both displace the line of sight
-// at the target by a number of metres, not by an angle. A cross-elevation error of the camera is
-// treated as a heading error, because at low elevations the two are the same.
+// first cause is a small rotation of the station: a tilt about east and a tilt about north, with
+// equal variances, and a heading error about up. The second is an elevation error that is fixed in
+// the camera, from its mounting. With position_states, the third is an error of the station's
+// position, together with the aim (LineOfSight::aim_sd_rad). These two share their states, because
+// both displace the line of sight at the target by a number of metres, not by an angle. A
+// cross-elevation error of the camera is treated as a heading error, because at low elevations the
+// two are the same.
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] on the tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] variances

@@ -10,9 +10,9 @@ class ConsecutiveRejections {
  public:
   // Restarts the count. To be called for each used bearing.
   void clear();
-  // Counts a rejected bearing of this station. Returns true if the last kMany or more bearings were
-  // all rejected, and came from two or more stations. The caller must then inflate the covariance
-  // and call clear().
+  // Counts a rejected bearing of this station. Returns true if at least the last kMany bearings
+  // were all rejected, and these bearings came from two or more stations. The caller must then
+  // inflate the covariance and call clear().
   bool add(const std::string& station);
 
   static constexpr int kMany = 6;

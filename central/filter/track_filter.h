@@ -3,13 +3,13 @@
 //
 // The target's states are position, velocity and acceleration (ECEF components). The states of each
 // contributing station are the rotation error of its pose (about its east, north, up), its clock's
-// offset, and the elevation error that is fixed in its camera. If the errors of its position and
-// aim matter at the target's range, their sum has states, too. The rotation and the position error
-// are constant while the tripod stands, and the aim is constant until the next designation; but the
-// bias on the tangent plane, which they cause, changes with the direction. All station states are
-// Gauss-Markov processes with the prior of BiasModel. Observable errors are estimated; the others
-// are only considered (Schmidt). The covariance of the target's position contains both kinds:
-// averaging over many bearings does not remove them.
+// offset, and the elevation error that is fixed in its camera. If the errors of the station's
+// position and aim matter at the target's range, the sum of these two errors has states, too. The
+// rotation and the position error are constant while the tripod stands. The aim is constant until
+// the next designation. The bias on the tangent plane that these errors cause nevertheless changes
+// with the direction. All station states are Gauss-Markov processes with the prior of BiasModel.
+// Observable errors are estimated; the others are only considered (Schmidt). The covariance of the
+// target's position contains both kinds: averaging over many bearings does not remove them.
 //
 // If a bearing is newer than the state, the state is propagated to the bearing's instant. If the
 // bearing is late, it is compared with the target's position extrapolated back to the bearing's

@@ -4,12 +4,12 @@
 //
 // A station is delivering if it has sent a bearing recently. A delivering station is due if its
 // frame of this instant is probably on its way. Its next frame is expected one frame interval after
-// its newest. The station is due if the time of this frame is between 20 ms before the epoch and 5
-// ms after it (a quarter of the interval, if that is shorter). An epoch is published as soon as
-// fewer than half of the delivering stations are due. Stations that expose together are therefore
-// published together, and stations that expose in turn cause no delay. If a station misses a frame,
-// no epoch waits for that station until it delivers again. No epoch waits for more than 20 ms of
-// message time.
+// its newest frame. The station is due if the time of this frame is between 20 ms before the epoch
+// and 5 ms after it (a quarter of the interval, if that is shorter). An epoch is published as soon
+// as fewer than half of the delivering stations are due. Stations that expose together are
+// therefore published together, and stations that expose in turn cause no delay. If a station
+// misses a frame, no epoch waits for that station until it delivers again. No epoch waits for more
+// than 20 ms of message time.
 #pragma once
 
 #include <cstddef>

@@ -66,7 +66,8 @@ class Fusion {
   // false if there is no cue or target of this name, or if the site uses neither cues nor
   // hand-over.
   bool allow_cue(const std::string& id, bool allow);
-  // Sets the policy that decides which of the targets found only by detectors lead stations.
+  // Sets the policy for targets that only detectors have found: it decides which of them lead
+  // stations.
   void set_handover(HandoverMode mode) { handover_.set_mode(mode); }
   HandoverMode handover() const { return handover_.mode(); }
   void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }

@@ -55,8 +55,9 @@ struct Slew {
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;
-  // In a search along a ray: the unit vector of the ray on the tangent plane. Zero otherwise. A cue
-  // that is to be found by its motion, in any direction, has (1, 0).
+  // In a search along a ray: the unit vector of the ray on the tangent plane. Zero otherwise. If
+  // the station is to recognise a cue's object by its motion, in whatever direction the object
+  // moves: (1, 0).
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double lease_s = 0.0;
   std::int64_t let_go_track_id = 0;  // the local track that its tracker is to let go of; 0: none
@@ -85,7 +86,8 @@ struct SlewStation {
 struct SlewRound {
   std::int64_t now_us = 0;
   std::map<std::int64_t, int> seen_by{};  // number of stations that see each target
-  // Priority by target id. A target that is absent has 1; a target with 0 leads no station.
+  // Priority by target id. A target that is not in this map has priority 1. A target with priority
+  // 0 leads no station.
   std::map<std::int64_t, double> priority{};
   std::set<std::int64_t> wanted{};                // targets that an operator wants
   std::set<std::int64_t> targets{};               // targets to which stations may be led

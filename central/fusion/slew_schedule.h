@@ -52,7 +52,7 @@ class SlewSchedule {
   void find_what_is_let_go(const std::vector<Track>& tracks, const HandoverPolicy& handover);
   // A station, and its own id of the tracklet.
   using TrackletName = std::pair<std::string, std::int64_t>;
-  // The line of one object is searched for at most this long.
+  // Stations search along the line of one object for at most this long in total.
   static constexpr double kSearched_s = 10.0;
   struct Tracklet {
     std::int64_t noted_us = 0, seen_us = 0;

@@ -6,6 +6,7 @@
 //
 //   p(r) ~ r / s(r) * exp(-h(r)^2 / 2 s(r)^2) * p(seen | r),   s^2 = s_ground^2 + (r s_elevation)^2
 //
+// s_ground is the 1-sigma of the ground's height, s_elevation the 1-sigma of the line's elevation.
 // All ranges have the same prior probability. p(seen | r) is the probability that the land does not
 // hide the point at r from the station. If the ground is a plane and the line is steep, the mixture
 // is a Gaussian with the 1-sigma s / tan(grazing angle). If the line is grazing, or meets several

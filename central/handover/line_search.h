@@ -37,15 +37,15 @@ struct CueRay {
 // The range at which the target is expected on the line.
 struct LinePrior {
   double range_m = 300.0;  // most likely range, from the line's origin
-  double sd_m = 150.0;     // 1-sigma; the distribution is logistic
+  double sd_m = 150.0;     // 1-sigma of the range, which has a logistic distribution
 };
 
 // The range at which a drone or a bird of usual size has this apparent size. nullopt if the
 // apparent size is unknown or too uncertain.
 std::optional<LinePrior> range_by_size(const CueRay& ray);
 
-// The weighted mean of the logarithms of both ranges. If the sigma of `second` is at least as large
-// as its range, the result is `first`.
+// Combines two ranges by the weighted mean of their logarithms. If the sigma of `second` is at
+// least as large as its range, the result is `first`.
 LinePrior combined(const LinePrior& first, const LinePrior& second);
 
 // The part of the line in which one searching station begins.

@@ -1,8 +1,8 @@
 // Decides to which target each station is led. Pure.
 //
 // Every target gets a good pair: two stations whose lines of sight cross at a good angle. 20
-// degrees or more are good. A smaller angle is also good if its sine is at least half the sine of
-// the site's best pair for this target. All other stations are free.
+// degrees or more are good. A smaller angle is also good if its sine is at least half of the sine
+// for the best pair that the site has for this target. All other stations are free.
 //
 //  - A station that sees a target can be spared if the other stations that see this target include
 //    a good pair. A station that cannot be spared leaves its target only for another one with 1.5
@@ -12,8 +12,8 @@
 //  - Targets without a good pair come first. Each possible move of a station to such a target has a
 //    score: the target's priority, divided by (0.5 s + the time to turn there). The move with the
 //    highest score is made first. A station that is on its way to a target counts as being there.
-//  - Then one station searches along the line of sight of an object whose position is unknown. If
-//    there is no target, all stations search there.
+//  - After these moves, one station searches along the line of sight of an object whose position is
+//    unknown. If there is no target, all stations search there.
 //  - Each remaining station goes to the target with the highest value of priority divided by number
 //    of stations, counting itself. A station leaves its present target only for another one whose
 //    value is 1.5 times as high.

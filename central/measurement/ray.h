@@ -51,7 +51,7 @@ enum class Solution {
   kTooFar,
   kNotConverged,
   kBearingOnly,  // only one station: a direction, no position
-  kRaysMiss,     // rays do not intersect, or have not yet for long enough
+  kRaysMiss,     // rays do not intersect, or have intersected for too short a time
   kAmbiguous,    // two stations see objects that may be paired in several ways
 };
 const char* to_string(Solution solution);
@@ -67,7 +67,7 @@ struct RayUse {
   double expected = 0.0;
   // For each component (cross-elevation, elevation): the residual; the variance with which the ray
   // was weighted; and the share (0..1) of this variance that is expected to appear in the residual.
-  // The share of a rejected ray can exceed 1, because the error of the position adds to the
+  // For a rejected ray, this share can exceed 1, because the error of the position adds to the
   // residual.
   Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();

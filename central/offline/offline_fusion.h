@@ -47,10 +47,10 @@ struct OfflineReport {
 };
 
 // For a recording that does not state clock errors: sets each bearing's clock error [s] to the time
-// in which the object, at its usual angular speed at this station, moves by half of the bearing's
-// noise; at most 0.02 s (half a video frame). The effect of the assumed error is then the same for
-// a fast meteor and a slow drone. With BiasModelConfig::clock_weight, the bearings refine the
-// guess.
+// in which the object, at its usual angular speed as this station sees it, moves by half of the
+// bearing's noise; at most 0.02 s (half a video frame). The effect of the assumed error is then the
+// same for a fast meteor and a slow drone. With BiasModelConfig::clock_weight, the bearings refine
+// the guess.
 void guess_clocks(const MutableBearings& measurements);
 void guess_clocks(std::vector<BearingMeasurement>& measurements);
 

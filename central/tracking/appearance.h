@@ -11,8 +11,9 @@ namespace ols::fusion {
 
 // Whether two bearings whose rays meet at these ranges can belong to one object. Three conditions
 // must hold. The speeds perpendicular to the plane of both rays agree (`plane_normal`: the plane's
-// unit normal, ECEF). The sizes, to within their errors, agree by a factor of 4 and are 0.05 to 80
-// m. The brightnesses (signal times range squared) agree by a factor of 30.
+// unit normal, ECEF). To within their errors, the sizes are between 0.05 m and 80 m, and the larger
+// is at most 4 times the smaller. The larger brightness (signal times range squared) is at most 30
+// times the smaller.
 bool may_be_same_object(const BearingMeasurement& a, double range_a_m, const BearingMeasurement& b,
                         double range_b_m, const Eigen::Vector3d& plane_normal);
 

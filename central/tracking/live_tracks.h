@@ -12,13 +12,14 @@
 //    it has used, and it has used two bearings of each of three stations, or five of each of two
 //    stations over confirm_s.
 //  - A track made of tracklets is not confirmed while it may be a ghost. Images from detectors show
-//    whether it exists (existence.h). If only two stations see it, there are two more reasons:
-//    their tracklets can be paired in several ways, or may agree by chance (clutter.h). A tracklet
-//    belongs to one target only.
-//  - tentative -> deleted: no two stations have seen the track for tentative_delete_s, or it is a
-//    duplicate of a confirmed track.
-//  - coasting -> deleted: no two stations have seen the track for drop_s. The limit is coast_s
-//    instead if one station has too many consecutive rejections while no two other stations agree.
+//    whether it exists (existence.h). If only two stations see the track, there are two more
+//    reasons to suspect a ghost: their tracklets can be paired in several ways, or may agree by
+//    chance (clutter.h). A tracklet belongs to one target only.
+//  - tentative -> deleted: fewer than two stations have seen the track for tentative_delete_s, or
+//    it is a duplicate of a confirmed track.
+//  - coasting -> deleted: fewer than two stations have seen the track for drop_s. The limit is
+//    coast_s instead if a station has too many consecutive rejections, unless bearings of at least
+//    two other stations have been used since that station's last used bearing.
 //  - two confirmed tracks -> one: they have been duplicates for a second (duplicate_tracks.h).
 //  - A new track that is confirmed at the predicted position of a deleted one takes over the
 //    deleted one's identity. Otherwise it takes over the identity of a bearing-only track of one of

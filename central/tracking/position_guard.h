@@ -8,15 +8,16 @@
 
 namespace ols::fusion {
 
-// Whether only two stations support the track, and their estimated biases exceed the errors that
-// they state. With only two stations, rays that miss each other for whatever reason (two objects, a
-// wrong heading) leave no residual: the filter explains the miss by biases.
+// Whether only two stations support the track, and the estimated biases of these two exceed the
+// errors that they state. With only two stations, rays that miss each other for whatever reason
+// (two objects, a wrong heading) leave no residual: the filter explains the miss by biases.
 bool is_inconsistent_pair(const TrackFilter& filter);
 
-// The largest number of consecutive rejections of a delivering station. A station is ignored if two
-// other stations have agreed since its last used bearing. A station with many rejections follows
-// another object, or the target has made an unforeseen manoeuvre; the bearings cannot distinguish
-// the two. With kMaxConsecutiveRejections or more, no position is therefore published.
+// The largest number of consecutive rejections of a delivering station. A station is ignored if
+// bearings of at least two other stations have been used since its own last used bearing. A station
+// with many rejections follows another object, or the target has made an unforeseen manoeuvre; the
+// bearings cannot distinguish the two. With kMaxConsecutiveRejections or more, no position is
+// therefore published.
 int consecutive_rejections(const TrackFilter& filter, std::int64_t now_us);
 inline constexpr int kMaxConsecutiveRejections = 6;
 

@@ -4,13 +4,13 @@
 //  - Two rays begin the track; it is then on trial. The track is confirmed once it has a position.
 //    The trial ends when the bearings also satisfy the rules of track initiation
 //    (track_initiation.h). If a bearing is rejected during the trial, the track is deleted, and
-//    everything learnt from it is forgotten. For a second after that, two rays do not begin a
+//    everything learnt from it is forgotten. For a second after that, two rays alone do not begin a
 //    track: the rules of track initiation apply.
 //  - A station disagrees with the track if most of its recent bearings are rejected. If at least
-//    two stations, and at least half of all stations, disagree, an initiation on which more
-//    stations agree replaces the track. The track keeps its identity.
-//  - coasting -> deleted: no two stations have seen the track for drop_s. Then two rays can begin a
-//    track again.
+//    two stations, and at least half of all stations, disagree, a newly initiated track on which
+//    more stations agree replaces the track. The track keeps its identity.
+//  - coasting -> deleted: fewer than two stations have seen the track for drop_s. Then two rays can
+//    begin a track again.
 #pragma once
 
 #include <cstdint>

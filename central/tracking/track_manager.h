@@ -4,8 +4,8 @@
 //
 //  - tentative -> confirmed: the track meets the criteria, and is no duplicate of a confirmed
 //    track.
-//  - confirmed -> coasting: no two stations have seen it for coast_s. coasting -> confirmed: two
-//    stations see it again.
+//  - confirmed -> coasting: fewer than two stations have seen the track for coast_s. coasting ->
+//    confirmed: two stations see it again.
 //  - any -> deleted: only two stations see it, and they are an inconsistent pair (their rays
 //    intersect only if their biases are larger than stated), or their rays intersect below or
 //    behind the ground (behind_land.h).
@@ -34,7 +34,7 @@ struct TrackManagerConfig {
   // Required bearings of each of two stations, if only two see the target.
   int confirm_pair_hits = 5;
   double confirm_s = 0.7;
-  double chance_pairs_a_day = 1.0;  // largest expected number of ghosts from two stations
+  double chance_pairs_a_day = 1.0;  // largest expected number per day of ghosts from two stations
   double tentative_delete_s = 0.4;
   double coast_s = 0.5;
   double drop_s = Activity::kSupportsS;
@@ -112,8 +112,9 @@ class TrackManager {
   // Whether a tentative track that has a position meets the criteria.
   virtual bool is_worth_confirming(const Track& track) const = 0;
   virtual void on_confirmed(const Track&) {}
-  // Whether a track that no two stations have seen for unseen_s is lost. is_tentative_lost() judges
-  // tentative tracks; is_lost() judges established tracks whose unseen_s exceeds coast_s.
+  // Whether a track is lost if fewer than two stations have seen it for unseen_s.
+  // is_tentative_lost() judges tentative tracks; is_lost() judges established tracks whose unseen_s
+  // exceeds coast_s.
   virtual bool is_tentative_lost(double unseen_s) const = 0;
   virtual bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const = 0;
   // Called before the deleted tracks are removed.
