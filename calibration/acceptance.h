@@ -15,15 +15,16 @@ namespace ols::calibration {
 struct AcceptanceLimits {
   // Systematic error per axis, over the working volume.
   double rms_arcsec = 15.0, worst_arcsec = 25.0;
-  double detectable_arcsec = 30.0;  // detectable bias of each reference
+  double detectable_arcsec = 30.0;  // largest detectable bias of a reference
+  // The same offset as in without_itself_arcsec, in sigmas.
   double without_itself_sigma = 3.0;
   double without_itself_arcsec =
       20.0;  // largest offset of a checked reference from the position that the others predict
-  double closing_arcsec = 12.0;            // between first and last sighting of a reference
+  double closing_arcsec = 12.0;            // from first to last sighting of a reference
   double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
   // Smallest number of 60 deg sectors of azimuth that contain a reference.
   int sectors = 3;
-  double elevation_deg = 10.0;  // smallest difference from the lowest reference to the highest
+  double elevation_deg = 10.0;  // smallest difference between lowest and highest reference
 };
 
 struct Finding {

@@ -37,7 +37,7 @@ class AdsbDecoder {
   // One half of a position (compact position reporting).
   struct Half {
     std::int64_t utime_us = 0;
-    double latitude = 0.0, longitude = 0.0;  // 0..1 of a zone
+    double latitude = 0.0, longitude = 0.0;  // place within the zone, 0..1
   };
   struct Aircraft {
     std::array<std::optional<Half>, 2> halves;  // even, odd

@@ -30,7 +30,9 @@ using Instant = FollowedSighting;
 
 struct Instants {
   std::vector<Instant> instants;  // sorted by station and time
-  std::size_t lonely = 0;  // sightings without a partner: none within 0.25 s across a whole second
+  // Sightings that were left out, because their track has no sighting that is at most 0.25 s away
+  // and on the other side of a whole second.
+  std::size_t lonely = 0;
   std::size_t unsure = 0;  // pairs of sightings whose directions of approach are unknown or differ
 };
 

@@ -8,8 +8,8 @@
 // If all sightings are worse than stated by the same factor, this search would reject most
 // landmarks, until only a few remained that agree by chance. If a landmark is rejected, the search
 // is therefore repeated with all stated deviations enlarged by 2, 4 and 8. The result with enlarged
-// deviations is preferred if its odds are above 1000; or above 20 if the mistaken landmarks are
-// ambiguous without the enlargement.
+// deviations is preferred if the odds in its favour are above 1000; or above 20 if, without the
+// enlargement, it is ambiguous which landmarks are mistaken.
 //
 // Landmarks are rejected only if three conditions hold:
 //  - More landmarks are kept than rejected.

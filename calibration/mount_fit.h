@@ -27,19 +27,20 @@ struct Measured {
 };
 
 struct MountFit {
-  Measured gain;                 // -1: it counts the other way
+  Measured gain;                 // near 1; near -1: the reported angles have the wrong sign
   Measured backlash_rad;         // 0 with sd 0: all positions were approached from one side
   Measured delay_s;              // in addition to the delay that the station assumes
   double position_sd_rad = 0.0;  // of a position reported at rest, compared with the picture
-  int rests = 0, moves = 0;      // numbers of the pictures that agree
+  int rests = 0, moves = 0;      // numbers of pictures, at rest and in motion, that fit
 };
 
-// nullopt if there are too few pictures at rest or in motion, if there is no motion both ways, or
-// if the result is too uncertain.
+// nullopt if there are too few pictures at rest or in motion, if the mount has not moved in both
+// directions, or if the result is too uncertain.
 std::optional<MountFit> fit_mount(std::vector<MountReading> readings);
 
-// Whether the delays of a mount's axes differ by more than 3 sigma and 20 ms. A mount reports both
-// axes at once, so they have one delay: pictures of one of them came with wrong times.
+// Whether the delays of a mount's axes differ by more than 3 sigma and 20 ms. Both axes of a mount
+// have the same delay, because the mount reports them together. If the measured delays differ, the
+// pictures of one axis came with wrong times.
 bool have_different_delays(const MountFit& a, const MountFit& b);
 
 }  // namespace ols::calibration

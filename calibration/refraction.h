@@ -29,7 +29,7 @@ std::string pressure_trouble(double pressure_hPa, double height_m);
 inline constexpr double kWavelength_um = 0.55;  // wavelength of the light that the camera sees
 
 // Refraction A tan z + B tan^3 z at the apparent zenith distance z (ERFA's eraRefco). Below an
-// elevation of 10 degrees, it is wrong by arc seconds.
+// elevation of 10 degrees, this formula is wrong by some arc seconds.
 class AstronomicalRefraction {
  public:
   explicit AstronomicalRefraction(const Air& air);

@@ -26,15 +26,15 @@ enum class Planet { kVenus = 2, kMars = 4, kJupiter = 5, kSaturn = 6 };
 std::optional<Planet> planet_of(const std::string& name);  // for example "venus"
 double planet_sd_rad(Planet planet);
 
-// Below this elevation, ERFA's refraction is wrong by arc seconds.
+// Below this elevation, ERFA's refraction is wrong by some arc seconds.
 inline constexpr double kLeastElevation_deg = 10.0;
 
 // The apparent direction of a star. Throws std::invalid_argument for an instant outside ERFA's
 // calendar.
 SkyDirection star_direction(const Star& star, std::int64_t utime_us, const Geodetic& place,
                             const Air& air, const EarthRotation& earth);
-// The index and the apparent direction of each star whose elevation without refraction is about
-// least_deg to most_deg.
+// The index and the apparent direction of each star whose elevation without refraction is between
+// about least_deg and most_deg.
 std::vector<std::pair<std::size_t, SkyDirection>> stars_between(
     const std::vector<Star>& stars, double least_deg, double most_deg, std::int64_t utime_us,
     const Geodetic& place, const Air& air, const EarthRotation& earth);

@@ -7,7 +7,7 @@
 // correct votes of one frame fall into one cell of a grid over turn and lift. The station's model
 // with its priors is fitted to the pairs in the best cells of all frames. The stars that then match
 // detections are counted. The result is accepted if there are at least 12 matches, if they are at
-// least 60 % of the possible matches, and if no other heading gives half as many.
+// least 60 % of the possible matches, and if every other heading gives fewer than half as many.
 #pragma once
 
 #include <cstdint>

@@ -28,8 +28,8 @@
 namespace ols::calibration {
 
 // The sighting of a landmark in a station's image. The deviations of pixel and angles must not be
-// zero. Sightings of exactly the same position belong to one landmark, and share the error of its
-// coordinates.
+// zero. Sightings with exactly the same landmark_ecef belong to one landmark, and share the error
+// of its coordinates.
 struct LandmarkSighting {
   // [m] For example from the land register.
   Eigen::Vector3d landmark_ecef = Eigen::Vector3d::Zero();

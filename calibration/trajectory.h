@@ -7,12 +7,12 @@ namespace ols::calibration {
 
 struct Motion {
   Eigen::Vector3d ecef, velocity_ecef;
-  double gap_s = 0.0;  // time between the two positions used; 0 at a position itself
+  double gap_s = 0.0;  // time between the two positions used; 0 at the instant of a position
 };
 
-// Interpolates linearly between the positions before and after the instant. At a position itself,
-// the velocity is that towards the next position. Beyond the ends, the first or last two positions
-// are extrapolated. `trajectory` must have at least two positions.
+// Interpolates linearly between the positions before and after the instant. At the instant of a
+// position, the velocity is that towards the next position. Beyond the ends, the first or last two
+// positions are extrapolated. `trajectory` must have at least two positions.
 Motion motion_at(const Trajectory& trajectory, double utime_us);
 
 // In a longer gap between two positions, the position of a drone or an aircraft counts as unknown.

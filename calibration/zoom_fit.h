@@ -27,7 +27,7 @@ struct ZoomFitOptions {
 struct ZoomFit {
   ZoomPoint point;      // its zoom position is not set
   int used = 0;         // number of pairs that agree
-  double rms_sd = 0.0;  // RMS of the residuals over their deviations; 1 is expected
+  double rms_sd = 0.0;  // RMS of the residuals, each divided by its 1-sigma; 1 is expected
   explicit operator bool() const { return used > 0; }
 };
 

@@ -32,10 +32,10 @@ struct PlacementProblem {
   std::vector<PlannedTarget> area;     // points of the area, with equal weights
   std::size_t stations = 0;            // number to choose
   PlacementGoal goal = PlacementGoal::kWorst;
-  double exposures = 1.0;
+  double exposures = 1.0;  // number of independent exposures over which white errors average
   // A point with a larger error [m] counts as undetermined.
   double within_m = std::numeric_limits<double>::infinity();
-  int starts = 30;
+  int starts = 30;  // number of random choices from which the search starts
 };
 
 struct Placement {

@@ -33,8 +33,8 @@ struct StationGeometry {
 struct PixelSight {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
-  // The same in every frame: the covariance that the lens causes, and (aim_sd_px) the 1-sigma of
-  // each coordinate that the designation causes.
+  // Errors that are the same in every frame: the covariance of those that the lens causes, and
+  // (aim_sd_px) the 1-sigma, in each coordinate, of the error that the designation causes.
   Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();
   double aim_sd_px = 0.0;
   PanTilt angles;

@@ -7,10 +7,11 @@
 namespace ols {
 
 inline constexpr double kSlewRateLimit_rad_s = 1.5;  // about each axis
-// The largest time between the present and the instant for which a slew is meant, before or after.
+// The largest time from now to the instant for which a slew is meant. The instant may be in the
+// past or in the future.
 inline constexpr double kSlewLead_s = 1.0;
 
-// The longest time for which a notice that the land hides a target may hold.
+// The longest time for which an occlusion notice (the land hides a target) may hold.
 inline constexpr double kOcclusionHolds_s = 15.0;
 
 // The largest pan and tilt angles, positive or negative, as the PTU reports them. A larger angle is

@@ -33,7 +33,7 @@ struct SceneSighting {
 
 struct ScenePair {
   std::size_t first = 0, second = 0;
-  int matched = 0, moved = 0;  // numbers of points that have the common offset or do not
+  int matched = 0, moved = 0;  // numbers of points with and without the common offset
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // median of found minus predicted position
 };
 
