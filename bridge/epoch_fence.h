@@ -27,8 +27,9 @@ class EpochFence {
   // this long, nobody leads the station, and an owner with a lower epoch may take over.
   static constexpr double kSilence_s = 2.0;
   static constexpr double kForgotten_s = 60.0;
-  // What epochs are possible: revisions count the renewals of all targets, so that the next epoch
-  // exceeds the greatest one so far by at most kMostJump, plus kMost_Hz for each second since then.
+  // Which epochs are possible. Revisions count the renewals of all targets. An epoch therefore
+  // exceeds the greatest one received so far by at most kMostJump, plus kMost_Hz for each second
+  // since that one was received.
   static constexpr std::uint64_t kMostEver = 1'000'000'000'000'000, kMostJump = 1'000'000;
   static constexpr double kMost_Hz = 10'000.0;
 

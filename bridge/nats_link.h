@@ -3,9 +3,9 @@
 // be sent at once is dropped and counted. Messages never wait for a connection, because a queued
 // command is a stale command.
 //
-// On an open connection, the library collects up to 32 kB, which a thread of its own writes to the
-// server. While that thread waits for the server, send() waits too. If the server reads nothing for
-// kWrite_ms, the library reconnects.
+// On an open connection, the library collects up to 32 kB of messages. One of the library's threads
+// writes them to the server. While that thread waits for the server, send() waits too. If the
+// server reads nothing for kWrite_ms, the library reconnects.
 #pragma once
 
 #include <atomic>

@@ -1,9 +1,9 @@
 // Decides which messages pass between a bus and the network of sites. Messages pass unchanged.
 // Pure.
 //
-// It has no keys: where messages are signed, the receiver verifies the signatures. Its rules say
-// which messages may go where, how large and how frequent they may be, and how old a command may
-// be.
+// The bridge has no keys: where messages are signed, the receiver verifies the signatures. The
+// rules of Passage say which messages may go where, how large and how frequent they may be, and how
+// old a command may be.
 #pragma once
 
 #include <array>
@@ -134,9 +134,9 @@ class Passage {
   }
 
  private:
-  // Limits of the number of channels with a rate. For messages of stations: two per station that
-  // the bridge may know, and one. Commands have a limit of their own, because they may name
-  // stations that do not exist.
+  // Limits of the number of channels with a rate. For messages of stations: two channels for each
+  // station that the bridge may know, plus one. Commands have a limit of their own, because they
+  // may name stations that do not exist.
   static constexpr std::size_t kMostChannels = 2 * StationPlaces::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 

@@ -16,7 +16,7 @@ namespace ols {
 struct AlarmRow {
   std::string_view id;
   std::string_view english;   // "ptu: supply voltage low ({volts} V)"
-  std::string_view subject;   // the parameters in the key: " station axis "
+  std::string_view subject;   // the parameters in Alarm::key(): " station axis "
   std::string_view severity;  // "urgent", "warning", "notice"
   std::string_view action;    // what a person should do
 };

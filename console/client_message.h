@@ -62,7 +62,7 @@ struct AnswerRequest {
   ProcedureAnswer answer;
   std::optional<std::int64_t> heard_utime_us;  // as for a command
 };
-// Whether stations may be slewed to a cue, or to what detectors find.
+// An operator's decision whether stations may be slewed to a cue, or to whatever detectors find.
 struct CueRequest {
   std::int64_t number = 0;
   wire::CueOrder order;

@@ -108,8 +108,9 @@ class Console {
   // Call often: updates outcomes, control and ages. Returns the orders to send now.
   std::vector<wire::Order> turn(const Now& now);
 
-  // Tells that this console shows a replay, and the replay's state. From now on no order goes out,
-  // and every message contains this state. `is_urgent`: viewers get the state at once.
+  // Call if this console shows a replay, whenever the state of the replay has changed. `state`: the
+  // replay's state. From now on no order goes out, and every message contains this state.
+  // `is_urgent`: viewers get the state at once.
   void replay_is(const Json& state, bool is_urgent);
   void timeline_is(const Json& timeline) { replay_.timeline = timeline; }
   bool is_replay() const { return !replay_.state.is_null(); }
@@ -132,9 +133,9 @@ class Console {
   void note(const std::string& who, const Alarm& what, const Now& now);
   std::size_t viewers() const { return viewers_.size(); }
 
-  // Shortest time between two messages with changes. The rate is 20 Hz; at 10 Hz, a new position
-  // could wait for 0.1 s. The period is slightly below 0.05 s, so that jitter of the turns does not
-  // lower the rate.
+  // Shortest time between two messages with changes. The rate is 20 Hz, because at 10 Hz a new
+  // position could wait for 0.1 s. The period is slightly below 0.05 s, so that jitter of the turns
+  // does not lower the rate.
   static constexpr double kDeltaPeriod_s = 0.045;
 
  private:
@@ -159,7 +160,8 @@ class Console {
   void tell_outcomes(const Now& now);
   void begin_stop(const std::string& station, const std::string& name, Ticket ticket,
                   const Now& now);
-  // Tells each viewer who controls one of these stations what another person has done to it.
+  // For each of these stations, tells the viewer that controls it what another person has done to
+  // it.
   void tell_holders(const std::vector<std::string>& stations, const char* what, const Person& by,
                     const Now& now);
   void look_at_incidents(const Now& now);

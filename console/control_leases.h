@@ -1,5 +1,5 @@
-// Which viewer controls which station. A viewer keeps control until it gives control up, another
-// viewer takes it, or it has given no command for `timeout_s`. Pure.
+// Which viewer controls which station. A viewer keeps control until it gives control up, until
+// another viewer takes control, or until it has given no command for `timeout_s`. Pure.
 #pragma once
 
 #include <cstdint>

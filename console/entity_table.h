@@ -29,8 +29,8 @@ class EntityTable {
   void remove(const std::string& id, Revision& revision);
   void clear(Revision& revision);
 
-  // Marks entities as stale ("stale": true) that were not set for stale_s, and removes those not
-  // set for forget_s. Returns the ids of those that have just become stale.
+  // If an entity was not set for stale_s, marks it as stale ("stale": true); if it was not set for
+  // forget_s, removes it. Returns the ids of the entities that have just become stale.
   std::vector<std::string> age(double now_s, double stale_s, double forget_s, Revision& revision);
 
   const Json* find(const std::string& id) const;

@@ -32,10 +32,9 @@ class LatestPictures {
   std::optional<std::string> next(View& view) const;
   void keep_only(const std::function<bool(const std::string&)>& is_known);
 
-  // The newest single picture of a station; null: it has none.
+  // The newest picture of a station that is coded by itself (JPEG, not H.264); null: there is none.
   const Picture* newest(const std::string& station) const;
-  // newest() returns the newest single picture of each station. show() replaces all pictures with
-  // these.
+  // newest() returns this picture of each station. show() replaces all pictures with these.
   std::map<std::string, Picture> newest() const;
   void show(const std::map<std::string, Picture>& pictures);
 

@@ -32,7 +32,7 @@ struct Verdict {
 
 class PendingOrders {
  public:
-  // Takes from a station's newest status whether it is stopped.
+  // Takes from a station's newest status whether the station is stopped.
   void receive(const std::string& station, bool is_stopped);
   // Takes a reply to an order that was sent.
   void receive(const wire::Reply& reply);

@@ -31,7 +31,7 @@ struct ReceivedTarget {
   double latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
 };
 
-// The fusion's message to a station that the land hides a target from the station.
+// The message by which the fusion tells a station that the land hides a target from it.
 struct ReceivedOcclusion {
   std::string station;
   std::string target;  // the target's id
@@ -49,7 +49,8 @@ struct ReceivedFusion {
   std::string last_error;
 };
 
-// How pictures are coded: kJpeg: each picture alone; kH264: each as changes from the one before.
+// How pictures are coded. kJpeg: each picture by itself. kH264: each picture as its changes from
+// the picture before, except key frames.
 enum class Codec { kJpeg, kH264 };
 
 struct Picture {

@@ -1,7 +1,7 @@
 // The access units (pictures) of a station's H.264 video since the last key frame. To show the
-// newest unit, a browser needs all units before it; therefore it is sent all that it lacks in one
-// message, with the header of the newest. A slow browser gets fewer and larger messages, but always
-// sees the newest picture. Pure.
+// newest unit, a browser needs all units before it; therefore one message contains all units that
+// the browser lacks, with the header of the newest. A slow browser gets fewer and larger messages,
+// but always sees the newest picture. Pure.
 #pragma once
 
 #include <cstddef>

@@ -27,8 +27,8 @@ class SapientReader {
   Readings take(const std::string& message);
 
  private:
-  // What must be known of a node to read its detections, which may be relative to its place and use
-  // the units that it has registered.
+  // What must be known about a node before its detections can be read: they may be relative to the
+  // node's place, and use the units that the node has registered.
   struct Node {
     std::optional<Geodetic> place;
     double speed_unit_m_s = 1.0;

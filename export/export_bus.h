@@ -1,4 +1,4 @@
-// The connection of ols-export to the bus, which only receives.
+// ols-export's connection to the bus. It only receives.
 #pragma once
 
 #include <string>

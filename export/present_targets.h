@@ -17,8 +17,8 @@ class PresentTargets {
   // Takes a record, and returns the records to export. Returns none for an older record, and for
   // the end of a target that is not present.
   std::vector<Target> take(const Target& target);
-  // Ends the targets that were silent for kSilent_s, and returns their ends. `utime_us`: now, by
-  // the clock of the records.
+  // Ends the targets that were silent for kSilent_s, and returns a record of each end. `utime_us`:
+  // now, by the clock of the records.
   std::vector<Target> end_silent(std::int64_t utime_us);
   std::size_t size() const { return live_.size(); }
 

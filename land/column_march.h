@@ -28,8 +28,8 @@ struct MarchSettings {
 // this is a few samples.
 inline constexpr double kLowered_m = 300.0;
 
-// Adds the steps of this azimuth to `steps`. Returns the distance [m] at which the surface has its
-// first gap or ends; reach_m if it has no gap.
+// Adds the steps of this azimuth to `steps`. Returns the distance [m] up to which the surface is
+// known without interruption; reach_m if it is known all the way.
 double march(const Surface& surface, const LocalFrame& frame, double azimuth_rad,
              const MarchSettings& settings, std::vector<Step>& steps);
 

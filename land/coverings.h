@@ -21,9 +21,9 @@ struct Covering {
   double sd_m = 0.0;  // 1-sigma of height_m
 };
 
-// Finds coverings by place, in a lattice of cells. For each covering in a cell, the cell stores the
-// edges that cross it, and whether the cell's centre is inside. A look-up therefore takes the same
-// time however long the outlines are.
+// Finds coverings by place, in a lattice of cells. For each covering in a cell, the cell stores
+// those edges of the covering that cross the cell, and whether the cell's centre is inside the
+// covering. A look-up therefore takes the same time however long the outlines are.
 class CoveringIndex {
  public:
   explicit CoveringIndex(const std::vector<Covering>& coverings);

@@ -74,8 +74,8 @@ class HorizonMap {
   double visible_probability(const Eigen::Vector3d& p_ecef,
                              const Eigen::Matrix3d& covariance_ecef) const;
 
-  // The horizontal distance [m] at which the surface has its first gap or ends; reach_m if it has
-  // no gap; 0 outside the sector.
+  // The horizontal distance [m] up to which the surface is known without interruption; reach_m if
+  // it is known all the way; 0 outside the sector.
   double known_to_m(double azimuth_rad) const;
   // The amount by which the surface was lowered at the camera [m]. The surface is lowered if the
   // camera would otherwise be less than kLeastAboveGround_m above the ground, which an error of the

@@ -3,10 +3,10 @@
 
 namespace ols::land {
 
-// Light bends towards the earth: over a distance d it falls below the straight line by refraction_k
-// d^2 / 2 R, where R is the radius of the earth. (The earth's surface falls below it by d^2 / 2 R.)
-// Over land in daylight, refraction_k is about 0.13, with a 1-sigma of 0.1; at 6 km, this 1-sigma
-// is 0.3 m of height.
+// Light bends towards the earth: over a distance d, the light falls below the straight line by
+// refraction_k d^2 / 2 R, where R is the radius of the earth. (The earth's surface falls below the
+// straight line by d^2 / 2 R.) Over land in daylight, refraction_k is about 0.13, with a 1-sigma of
+// 0.1; at 6 km, this 1-sigma is 0.3 m of height.
 inline constexpr double kRefraction = 0.13, kRefractionSd = 0.1;
 
 // The amount that refraction adds to the tangent of an elevation, for a point at this distance.

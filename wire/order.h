@@ -77,10 +77,10 @@ struct Reply {
   bool is_stopped = false;  // whether the station is stopped after the order
 };
 
-// How long a station obeys an order after it was made, and how long the sender waits for the
-// answer. A joystick's order has a shorter lease.
+// The lease of an order: a station obeys the order only within this time after it was made, and the
+// sender waits for the answer for this time. A joystick's order has a shorter lease.
 inline constexpr double kLease_s = 2.0;
-// Two status intervals, and some reserve: every station sends a status within this time.
+// Two status intervals, and some reserve: every station sends at least one status within this time.
 inline constexpr double kTwoIntervals_s = 1.2;
 // Interval at which a rate is repeated while the joystick is held. If two repetitions in a row are
 // lost, the third still arrives before the lease ends.

@@ -1,5 +1,6 @@
-// A program's connection to the bus. It retries every second while there is no network, closes a
-// connection that no longer receives anything, and reports each trouble once. Use it in one thread.
+// A program's connection to the bus. It tries to connect every second while there is no network,
+// closes a connection that no longer receives anything, and reports each trouble once. Use it in
+// one thread.
 #pragma once
 
 #include <functional>
@@ -17,7 +18,8 @@ namespace ols {
 class BusClient {
  public:
   using Subscribe = std::function<void(LcmBus&)>;
-  // Receives the reason when the connection is lost, and an empty text when it is back.
+  // Receives the reason when the connection is lost, and an empty text when there is a connection
+  // again.
   using Tell = std::function<void(const std::string& trouble)>;
 
   // subscribe: called on each new connection. tell: receives each trouble; it is also logged.

@@ -1,10 +1,10 @@
 // A datagram of the bus: one whole LCM message ("LC02"). Pure.
 //
 // LCM cuts a message that does not fit into one datagram into fragments ("LC03"). No message of
-// this system is that large. The reassembly in liblcm 1.3.1 adds offset and length of a fragment in
-// 32 bits, so a forged fragment makes it write beyond its buffer
-// (https://github.com/lcm-proj/lcm/pull/628). Fragments are therefore refused here, and liblcm
-// never sees a datagram.
+// this system is that large. The reassembly in liblcm 1.3.1 adds offset and length of a fragment as
+// 32-bit numbers. The sum can overflow, so that a forged fragment makes liblcm write beyond its
+// buffer (https://github.com/lcm-proj/lcm/pull/628). Fragments are therefore refused here, and
+// liblcm never sees a datagram.
 #pragma once
 
 #include <cstddef>

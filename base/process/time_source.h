@@ -21,9 +21,9 @@ class TimeSource {
   // it is released while waiting. `news` is signalled when the data have changed.
   virtual void wait(std::unique_lock<std::mutex>& lock, std::condition_variable& news,
                     double most_s, const std::function<bool()>& over) = 0;
-  // How long a loop that asks for the result of background work waits for that work, in true time.
-  // Zero on a host. Long in simulated time, so that the results do not depend on the speed of the
-  // computer.
+  // The longest time, in real seconds, that a loop waits for the result of background work. Zero on
+  // a host: the loop never waits. Long if time is simulated, so that the results do not depend on
+  // the speed of the computer.
   virtual std::chrono::seconds for_work() const = 0;
 
  protected:

@@ -46,8 +46,8 @@ std::string to_hex(Bytes bytes);
 template <std::size_t Size>
 std::optional<std::array<std::uint8_t, Size>> from_hex(std::string_view text);
 
-// Six words for a public key, to be compared by voice. They are 96 bits of its hash as proquints
-// (Wilkerson, arXiv:0901.4016).
+// Six words for a public key, to be compared by voice. The words spell 96 bits of the key's hash as
+// proquints (Wilkerson, arXiv:0901.4016).
 std::string spoken(const PublicKey& key);
 
 }  // namespace ols::trust

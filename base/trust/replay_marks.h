@@ -25,7 +25,7 @@ class ReplayMarks {
   static constexpr std::uint64_t kWindow = 64;
   static constexpr std::size_t kBoots = 32;
 
-  // True if the message was received before. Also true if that cannot be excluded: the boot may be
+  // True if the message was received before. Also true if this cannot be excluded: the boot may be
   // a forgotten one, or the sequence number is kWindow or more below the newest.
   bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
   // As is_replayed(), but false for a boot that is not remembered.

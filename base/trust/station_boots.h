@@ -16,9 +16,9 @@ class StationBoots {
   // not fresh is used only if may_be_own() is true.
   void hear(std::string_view station, std::int64_t boot_id, bool fresh, double now_s);
   // Whether a status that is not fresh may come from the station itself. It counts as a recording
-  // if a fresh status of the same boot was received within the last kPreferred_s, or one of another
-  // boot within the last kReboot_s. The reason: a host loses its clock only when it boots, and that
-  // takes longer than kReboot_s.
+  // if a fresh status of the same boot was received within the last kPreferred_s, or a fresh status
+  // of another boot within the last kReboot_s. The reason: a host loses its clock only when it
+  // boots, and that takes longer than kReboot_s.
   bool may_be_own(std::string_view station, std::int64_t boot_id, double now_s) const;
   static constexpr double kPreferred_s = 5.0, kReboot_s = 20.0;
 

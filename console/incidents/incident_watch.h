@@ -93,7 +93,7 @@ class IncidentWatch {
   std::map<std::string, double> heard_s_;  // targets that are inside, each with the time when it
                                            // was last received
   std::map<std::uint64_t, double> outside_since_s_;  // incidents whose targets may have left, each
-                                                     // with the time since when
+                                                     // with the time when this began
   std::deque<std::string> dismissed_;                // targets whose incidents are forgotten
   Changes changes_;
 };

@@ -19,8 +19,8 @@ class RecordedFrames {
   // cannot be listed or has no event. A damaged row or event is skipped and reported in problems().
   void add(const std::string& station, const std::string& folder);
 
-  // The station's newest frame at this time. nullopt if the frame is older than kOld_us, or was
-  // returned by the last call as well.
+  // The station's newest frame at this time. nullopt if the frame is older than kOld_us, or if the
+  // last call has already returned it.
   std::optional<Picture> newest(const std::string& station, std::int64_t utime_us);
   // Lets newest() return the same frames once more.
   void give_again() {

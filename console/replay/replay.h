@@ -48,7 +48,8 @@ class Replay {
   void show_frames();
   void tell();
   void tell_timeline();
-  // Plays the log up to a time. False: that is more than one turn may process.
+  // Plays the log up to a time. False: there are more messages up to that time than one turn may
+  // process.
   bool catch_up(Console& console, std::int64_t until_us);
 
   const std::string log_;

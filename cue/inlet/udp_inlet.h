@@ -1,5 +1,5 @@
-// Receives datagrams to this host or to a multicast group. Joins a group again after ten seconds
-// without a datagram.
+// Receives datagrams that are sent to this host or to a multicast group. Joins a group again after
+// ten seconds without a datagram.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
