@@ -40,8 +40,8 @@ class OwnerStore {
   // Queues requests, which are handled one after the other. Requests beyond the queue's limit are
   // answered with kNone at once.
   void ask(std::vector<StoreRequest> requests);
-  // The time from the last answered request to its answer; or the age of the oldest request that
-  // still waits, if that is longer.
+  // How long the last answered request waited for its answer; or the age of the oldest request that
+  // still waits, if that is greater.
   double delay_s() const;
 
  private:

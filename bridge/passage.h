@@ -83,7 +83,7 @@ struct Counts {
   std::string last_refusal{};
 };
 
-// The id and epoch of a target, which go out with the target and with commands about it.
+// The id and epoch of a target. Both go out with the target and with commands about it.
 struct Grant {
   std::string id;            // the target's id, the same for all fusions; empty: no target (a
                              // search)

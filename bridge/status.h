@@ -56,9 +56,9 @@ std::vector<Alarm> alarms(const BridgeStatus& status);
 std::string in_one_line(const BridgeStatus& status);
 std::string to_json(const BridgeStatus& status);
 
-// The sites whose live messages arrive now, but of which nothing has reached the archive for
-// `patience_s`. The bridge checks this itself, because a server that has stopped copying reports no
-// trouble.
+// The sites whose live messages arrive now, although nothing from these sites has reached the
+// archive for `patience_s`. The bridge checks this itself, because a server that has stopped
+// copying reports no trouble.
 std::vector<std::string> standing_still(const std::map<std::string, double>& heard_ago_s,
                                         const std::map<std::string, double>& archived_ago_s,
                                         double patience_s);

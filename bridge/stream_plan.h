@@ -31,7 +31,7 @@ std::optional<StreamPlan> plan_stream(const BridgeConfig& config);
 bool is_same_stream(const BridgeConfig& config, const std::vector<std::string>& subjects,
                     const std::vector<std::string>& sources);
 
-// Whether a pattern, which is a subject with NATS wildcards, covers the subject.
+// Whether a pattern (a subject with NATS wildcards) covers the subject.
 bool covers(const std::string& pattern, const std::string& subject);
 
 }  // namespace ols::bridge

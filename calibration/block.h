@@ -52,8 +52,9 @@ class Block {
   virtual BlockPtr of_station(std::size_t) const { return nullptr; }
   // For the block of a target. sighting_count(): the number of its sightings. with_only(): the
   // block with only the sightings of these indices. without_each(): calls TakeEquations for each
-  // sighting, with the block's equations without this sighting, over the same columns. It does not
-  // return them all at once, because those of 10 000 sightings need 100 MB.
+  // sighting, with the block's equations without this sighting, over the same columns.
+  // without_each() does not return all equations at once, because the equations for 10 000
+  // sightings need 100 MB.
   virtual std::size_t sighting_count() const { return 0; }
   virtual BlockPtr with_only(const std::vector<std::size_t>&) const { return nullptr; }
   using TakeEquations = std::function<void(std::size_t sighting, const BlockEquations& without)>;

@@ -15,10 +15,11 @@ namespace ols::calibration {
 // contradiction.
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
 
-// The same for mistakes at a station, which look like several mistaken references: its position was
-// surveyed wrongly, its tripod was turned between two sightings, or its unit lost counts between
-// two sightings. If there are thousands of sightings of a drone or an aircraft, only some hundreds
-// are tried: the sighting that the sentence names may then come a little after the mistake.
+// The same for mistakes at a station. Such a mistake looks like several mistaken references. The
+// mistakes tried are: the station's position was surveyed wrongly, its tripod was turned between
+// two sightings, or its unit lost counts between two sightings. If there are thousands of sightings
+// of a drone or an aircraft, only some hundreds of these sightings are tried. The sighting that the
+// sentence names may then come a little after the mistake.
 std::vector<std::string> mistakes_of_stations(const Problem& problem, const Levels& levels = {});
 
 }  // namespace ols::calibration

@@ -43,8 +43,8 @@ struct TargetFacts {
   Eigen::Vector2d second_px = Eigen::Vector2d::Zero();
   double distance_m = 0.0;  // for a cross or a ruler: distance from the pan axis
   // For a cross: its distance to the right of the plane in which the camera tilts. (This plane
-  // contains the pan axis and is perpendicular to the tilt axis.) For a ruler: the reading at the
-  // pixel, which increases upwards. The zeros of all rulers are at the same height.
+  // contains the pan axis and is perpendicular to the tilt axis.) For a ruler: the ruler's reading
+  // at the pixel; readings increase upwards. The zeros of all rulers are at the same height.
   double offset_m = 0.0;
   // 1-sigma: of a line's inclination [rad], a cross's position [m], or the height of a ruler's zero
   // [m].

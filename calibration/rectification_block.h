@@ -6,7 +6,8 @@
 //  - Ruler pair: gives the elevation of the camera. Two rulers stand at two distances, with their
 //    zeros at the same height.
 //
-// Each sighting gives one equation, which is divided by the deviation of the measured quantity.
+// Each sighting gives one equation. The equation is divided by the 1-sigma of the measured
+// quantity.
 #pragma once
 
 #include <string>

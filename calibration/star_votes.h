@@ -27,7 +27,7 @@ struct SeenFrame {
   std::vector<Detection> detections;
   std::vector<SkyStar> sky;
   AzimuthElevation axis;                        // direction of the image centre, at heading 0
-  double across_sd_rad = 0.0, up_sd_rad = 0.0;  // due to the station's parameters
+  double across_sd_rad = 0.0, up_sd_rad = 0.0;  // 1-sigma, from the station's parameters
 };
 
 // A detection of a frame and a star, by their indices.

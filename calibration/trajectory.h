@@ -15,7 +15,8 @@ struct Motion {
 // positions are extrapolated. `trajectory` must have at least two positions.
 Motion motion_at(const Trajectory& trajectory, double utime_us);
 
-// In a longer gap between two positions, the position of a drone or an aircraft counts as unknown.
+// If more time than this is between two positions of a drone or an aircraft, its position between
+// them counts as unknown.
 inline constexpr double kLongestGap_s = 3.0;
 
 }  // namespace ols::calibration

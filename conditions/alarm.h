@@ -33,8 +33,8 @@ struct Alarm {
   bool operator==(const Alarm&) const = default;
   friend bool operator==(const Alarm& alarm, std::string_view text) { return alarm.text == text; }
 
-  // The same alarm with the message of a device or library, which is appended to the sentence and
-  // becomes the parameter "detail".
+  // The same alarm with the message of a device or library. The message is appended to the
+  // sentence, and becomes the parameter "detail".
   Alarm with_detail(const std::string& detail) const;
   // A key that stays the same while the alarm is active: the id and the values of the subject's
   // parameters ("station_silent s1"). Other parameters may change meanwhile. Without an id: the
@@ -43,8 +43,8 @@ struct Alarm {
   // The sentence, in which only the subject's parameters have values; all others appear as "…".
   std::string gist() const;
   // The sentence in two parts, split at the first colon of the row's sentence. part() is the text
-  // before the colon, which says what the alarm is about ("ptu"); reason() is the rest. Without an
-  // id, part() is empty and reason() is the whole sentence.
+  // before the colon: it says what the alarm is about ("ptu"). reason() is the rest. Without an id,
+  // part() is empty and reason() is the whole sentence.
   std::string part() const;
   std::string reason() const;
   // The value of a parameter; empty: the alarm has no parameter of this name.

@@ -1,4 +1,5 @@
-// Operators' decisions on cues, which go to the fusion, and the fusion's answers. Pure.
+// Holds operators' decisions on cues until they are sent to the fusion, and takes the fusion's
+// answers. Pure.
 #pragma once
 
 #include <string>

@@ -24,7 +24,7 @@ struct Event {
   Outcome refusal{};    // why a command was not carried out
 };
 
-// Makes an event from a note, which is a row of conditions.toml.
+// Makes an event from a note (a row of conditions.toml).
 inline Event noted(std::int64_t utime_us, const char* kind, const std::string& station,
                    const std::string& who, const Alarm& note, const std::string& outcome = {}) {
   return {utime_us, kind, station, who, note.text, outcome, note};

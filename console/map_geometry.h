@@ -11,8 +11,8 @@
 
 namespace ols::console {
 
-// Reads at most four numbers, separated by commas, from a query: those after `name`, which includes
-// the "=", up to the next "&". Empty if there are no such numbers, or more than four.
+// Reads numbers from a query: at most four, separated by commas, between `name` (which includes the
+// "=") and the next "&". Empty if there are no such numbers, or more than four.
 std::vector<double> numbers_of(std::string_view query, std::string_view name);
 
 // The ellipse that contains the position with a probability of 95 %, from a horizontal covariance

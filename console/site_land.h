@@ -1,5 +1,5 @@
 // The land around the site, for browsers: heights of the ground, and the land below a line of
-// sight. Use it in one thread, which may wait for a disk.
+// sight. Use it in one thread only; the thread must be one that may wait for a disk.
 #pragma once
 
 #include "console/land_task.h"

@@ -1,5 +1,5 @@
-// The viewers, which are the connected browsers: the user of each, what it was sent, and the texts
-// that wait to be sent. Pure.
+// The viewers (the connected browsers): the user of each, what it was sent, and the texts that wait
+// to be sent. Pure.
 #pragma once
 
 #include <cstdint>

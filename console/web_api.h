@@ -79,7 +79,7 @@ class WebApi {
 
   // Whether no log-in is needed, because there are no users. This is allowed only on loopback.
   bool is_open() const { return is_open_; }
-  // Headers for every response, which restrict what the browser does with it.
+  // Headers for every response. They restrict what the browser does with the response.
   static std::vector<std::pair<std::string, std::string>> security_headers(bool is_tls);
 
  private:

@@ -1,4 +1,4 @@
-// Splits a stream of bytes, which arrive in pieces of any size, into messages. Pure.
+// Splits a stream of bytes into messages. The bytes arrive in pieces of any size. Pure.
 #pragma once
 
 #include <string>

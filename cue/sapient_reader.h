@@ -1,5 +1,5 @@
-// Reads SAPIENT (BSI Flex 335 v2.0): the detections of other nodes, which a SAPIENT middleware
-// passes on. Pure.
+// Reads SAPIENT (BSI Flex 335 v2.0): the detections of other nodes, as a SAPIENT middleware passes
+// them on. Pure.
 #pragma once
 
 #include <functional>

@@ -8,9 +8,9 @@
 
 namespace ols::exports {
 
-// The columns are those of tools/offline/fix_writer.h; those of standard deviations may be missing.
-// The file has no covariances between axes; they are taken as 0. Throws CsvError (FILE:LINE:
-// COLUMN: what is wrong).
+// The columns are listed in tools/offline/fix_writer.h; columns of standard deviations may be
+// missing. The file has no covariances between axes; they are taken as 0. Throws CsvError
+// (FILE:LINE: COLUMN: what is wrong).
 std::vector<Target> read_fixes(const std::string& path, const SiteContext& site);
 
 }  // namespace ols::exports

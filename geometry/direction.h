@@ -43,9 +43,9 @@ struct LineOfSight {
   Eigen::Matrix2d covariance_white = Eigen::Matrix2d::Zero();       // independent in every frame
   Eigen::Matrix2d covariance_systematic = Eigen::Matrix2d::Zero();  // the same in every frame
   Eigen::Vector3d origin_sd_enu_m = Eigen::Vector3d::Zero();        // [m] the same in every frame
-  // 1-sigma of each axis of the part of covariance_systematic that comes from the aim. The aim is
-  // the offset of the followed point from the target's middle. It is constant in metres; as an
-  // angle, it changes with the range.
+  // The aim's contribution to covariance_systematic, as a 1-sigma of each axis. The aim is the
+  // offset of the followed point from the target's middle. It is constant in metres; as an angle,
+  // it changes with the range.
   double aim_sd_rad = 0.0;
 };
 

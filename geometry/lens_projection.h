@@ -1,6 +1,6 @@
 // The part of a lens that differs between the lens models: the mapping between directions and
-// points on the image plane, which K maps to pixels. Only lens.cpp uses this interface; lens.cpp
-// also chooses the model.
+// points on the image plane. (K then maps these points to pixels.) Only lens.cpp uses this
+// interface; lens.cpp also chooses the model.
 #pragma once
 
 #include "geometry/lens.h"

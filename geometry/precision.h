@@ -1,6 +1,6 @@
-// How accurately N stations can determine a position: the Cramer-Rao bound for one instant, which
-// can be computed before any measurement. The Earth's curvature is included: each station has its
-// own horizon, and distances are unlimited.
+// How accurately N stations can determine a position: the Cramer-Rao bound for one instant. It can
+// be computed before any measurement. The Earth's curvature is included: each station has its own
+// horizon, and distances are unlimited.
 //
 // Each station measures the direction to the target on its tangent plane (geometry/direction.h).
 // Its errors are independent of those of other stations. Errors of a station that are constant from
@@ -25,7 +25,7 @@ namespace ols {
 
 // 2x3 [rad/m]: derivative of the direction to a point with respect to the point's ECEF position.
 // The direction is given on its tangent plane (cross-elevation, elevation), relative to the
-// station's horizon. With the opposite sign, it is the derivative with respect to the station's own
+// station's horizon. With its sign reversed, it is the derivative with respect to the station's own
 // position; this neglects that the horizon rotates with the station's position (below 2e-7 rad/m
 // outside the polar regions).
 Eigen::Matrix<double, 2, 3> bearing_jacobian(const LocalFrame& station,

@@ -13,7 +13,7 @@ namespace ols::land {
 struct MarchSettings {
   double reach_m = 0.0;  // horizontal distance at which the march ends
   double least_cell_m = 0.0;
-  double cell_per_distance = 0.0;
+  double cell_per_distance = 0.0;  // length of a cell, relative to its distance from the camera
   double refraction_k = 0.0;
   double refraction_k_sd = 0.0;  // 1-sigma
   // The surface is lowered by this amount at the camera. The amount decreases with distance, to

@@ -1,4 +1,4 @@
-// The coverings of the land, which are buildings and woods, and a search for those above a place.
+// The coverings of the land (buildings and woods), and a search for the coverings above a place.
 #pragma once
 
 #include <Eigen/Core>

@@ -2,8 +2,8 @@
 // elevation is the highest elevation of the land up to that distance.
 //
 // Elevations are apparent: the elevation in the east-north-up frame at the camera
-// (geometry/direction.h), raised by terrestrial refraction, which lifts a point at distance d by k
-// d^2 / 2R (land/refraction.h). Points of the surface are converted by exact WGS84 geometry. A
+// (geometry/direction.h), raised by terrestrial refraction. Refraction lifts a point at distance d
+// by k d^2 / 2R (land/refraction.h). Points of the surface are converted by exact WGS84 geometry. A
 // distance is horizontal in that frame; a range is measured along the straight line.
 //
 // A column is one azimuth. The land is sampled along each column in cells. A cell is as long as the
@@ -78,8 +78,8 @@ class HorizonMap {
   // it is known all the way; 0 outside the sector.
   double known_to_m(double azimuth_rad) const;
   // The amount by which the surface was lowered at the camera [m]. The surface is lowered if the
-  // camera would otherwise be less than kLeastAboveGround_m above the ground, which an error of the
-  // surface or of the camera's height can cause.
+  // camera would otherwise be less than kLeastAboveGround_m above the ground. An error of the
+  // surface or of the camera's height can cause this.
   double lowered_m() const { return lowered_m_; }
   const Geodetic& camera() const { return frame_.origin(); }
   const HorizonMapConfig& config() const { return config_; }

@@ -92,8 +92,8 @@ inline constexpr double kJoystickLease_s = 0.3;
 // loses messages.
 inline constexpr double kStopAgain_s = 0.02;
 
-// Whether the order comes from a joystick: a rate of the PTU or of the lens, which holds for a
-// lease.
+// Whether the order comes from a joystick: a rate of the PTU or of the lens. Such a rate holds only
+// for its lease.
 bool is_joystick(const Order& order);
 double lease_s(const Order& order);
 

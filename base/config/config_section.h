@@ -75,7 +75,7 @@ struct Section {
   std::string sentence;
   std::vector<Row> rows = {};
   std::vector<Section> sections = {};
-  // A check across rows, which throws ConfigError. Runs after rows and sections are read.
+  // A check that concerns several rows; throws ConfigError. Runs after rows and sections are read.
   std::function<void(ConfigTable&)> check = {};
   // For an array of tables: appends an element to it and returns the element's section.
   std::function<Section()> append = {};

@@ -1,4 +1,4 @@
-// The record of a target's owner, which the store keeps as text. Pure.
+// The record of a target's owner. The store keeps it as text. Pure.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Collects the bearings of one image, which arrive as separate messages. Pure.
+// Collects the bearings of one image. They arrive as separate messages. Pure.
 #pragma once
 
 #include <cstdint>

@@ -4,10 +4,10 @@
 // One unexplained bearing proves nothing. A station's pose counts as wrong if, for some seconds,
 // targets explain hardly any of its bearings, and all of these bearings miss the nearest target by
 // about the same angle. The station is then quarantined: an alarm is raised, and its bearings
-// initiate no tracks, because its rays would intersect those of other stations in ghosts. Bearings
-// that a target explains are still used. The quarantine ends when targets explain most of the
-// bearings. It also ends after lapse_s without a target: the station may have been corrected, and
-// may be needed to initiate a target.
+// initiate no tracks, because the intersections of its rays with other stations' rays would be
+// ghosts. Bearings that a target explains are still used. The quarantine ends when targets explain
+// most of the bearings. It also ends after lapse_s without a target: the station may have been
+// corrected, and may be needed to initiate a target.
 #pragma once
 
 #include <Eigen/Core>

@@ -22,7 +22,7 @@ struct StationTraits {
   Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
   double latency_s = 0.05;                 // from mid-exposure to the bearing's arrival
   double field_of_view_rad = 0.05;         // the narrower of width and height
-  std::optional<AzimuthElevation> axis{};  // the last direction that the station reported
+  std::optional<AzimuthElevation> axis{};  // of the optical axis, as last reported
   bool commandable = true;                 // not stopped, and not under operator control
   StatedCalibration calibration{};
 };
@@ -32,7 +32,7 @@ struct KnownStation {
   RecentExposures exposures;
   std::int64_t bearings = 0;  // number of admitted bearings
   bool delivered = false;     // the station has sent a bearing, even if it was refused
-  std::int64_t heard = 0;     // number of its last message, in a count over all stations
+  std::int64_t heard = 0;     // its last message's number, counted over all stations
   std::int64_t calibration_id = 0;
   std::int64_t boot_id = 0;
   int untimely = 0;  // number of consecutive bearings that were too old or from the future

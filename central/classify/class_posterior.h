@@ -7,15 +7,15 @@
 // extent, and that of the smaller side of the upright box around the outline. Wings and rotors are
 // part of the outline. A bird's outline changes with its wing beat of 2 to 15 Hz, a rigid body's
 // does not. Seen from the side, wings change only the smaller side. The variance of each feature's
-// error is added to that of the density: an uncertain look therefore has little influence. An
-// unknown feature is left out.
+// error is added to the variance of the density: an uncertain look therefore has little influence.
+// An unknown feature is left out.
 //
 // Looks at one track are correlated: a bird that glides now still glides a tenth of a second later.
-// Their log-likelihoods are therefore averaged, and the average counts as a number of independent
+// Their log-likelihoods are therefore averaged, and the average has the weight of N independent
 // looks. For the features that change little over an object's life (size, cruising speed, height),
-// this number is 1. For the other features, given these, it is 1 + t / kCorrelation_s after t
-// seconds, at most kMostLooks. The weight of a look falls to 37 % in kMemory_s. Therefore, if a
-// track passes to another object, the class changes, too.
+// N is 1. For the other features, given these, N is 1 + t / kCorrelation_s after t seconds, at most
+// kMostLooks. The weight of a look falls to 37 % in kMemory_s. Therefore, if a track passes to
+// another object, the class changes, too.
 //
 // A target is 'unknown' until it has been looked at for a second and one class has a posterior of
 // at least 0.9. A look without a size is ignored, because motion alone does not distinguish a

@@ -1,4 +1,4 @@
-// Three models of a target's motion. All have the same state, which allows mixing them. Pure.
+// Three models of a target's motion. All have the same state, so that they can be mixed. Pure.
 //
 // The state of each axis is (position, velocity, acceleration). The three axes of space share one
 // 3x3 transition f and one 3x3 noise q: F = f (x) I and Q = q (x) D. D is I unless the target is

@@ -64,8 +64,8 @@ struct Slew {
 };
 
 // The slew that points a station's camera at a target's predicted state. The slew's uncertainty
-// combines those of the target's position and of the station's position. The caller sets the
-// station, the times and the target.
+// combines the uncertainty of the target's position with that of the station's position. The caller
+// sets the station, the times and the target.
 Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config);
 
 // The k-th point (k >= 0) of a search, on an Archimedean spiral from the centre outwards, in units

@@ -4,8 +4,8 @@
 // decide. Pure.
 //
 //  - The policy for targets found by detectors is one of three. off: they lead no station. propose:
-//    each waits for an operator. automatic: those of the configured `classes` lead at once, and the
-//    others wait for an operator.
+//    each waits for an operator. automatic: targets of the configured `classes` lead at once, and
+//    all other targets wait for an operator.
 //  - An operator's decision takes effect at once, and also applies to designated targets. It lasts
 //    until the target loses its number. Designating a dismissed target takes the dismissal back.
 //  - If a target is lost, the decision on it passes to the first new target that appears at its

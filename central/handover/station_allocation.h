@@ -46,10 +46,10 @@ struct AllocatedStation {
   bool is_led = true;          // false: never led, but counted at the target that it sees
   std::int64_t sees = 0;       // the target that it sees; 0 if none
   bool by_detector = false;    // its detector sees the target, its tracker does not
-  bool keeps_tracker = false;  // an operator designated the target there: it stays
+  bool keeps_tracker = false;  // an operator designated the target here: the station stays
   std::int64_t led_to = 0;     // the target to which it is being led and which it does not see yet
   bool is_busy = false;        // its tracker follows an object that is not a target yet
-  bool may_search = true;      // false: it sees the object of the line itself
+  bool may_search = true;      // false: it already sees the object of the line
   bool searches = false;       // it is already searching along that line
 };
 

@@ -35,7 +35,7 @@ struct OfflineConfig {
 // Numbers of bearings that fuse_offline() leaves out from the beginning.
 struct UnusedBearings {
   std::size_t low_belief = 0;
-  std::size_t duplicate = 0;  // same station and stamp as another bearing, which is used
+  std::size_t duplicate = 0;  // same station and stamp as another bearing, and not used
 };
 
 struct OfflineReport {

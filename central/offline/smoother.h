@@ -4,8 +4,8 @@
 // One filter runs forwards in time, another one backwards (Fraser and Potter, 1969). At each
 // instant, the forward filter's state (from the bearings up to the instant) is combined with the
 // backward filter's prediction (from the later bearings). The biases of the more certain filter are
-// used for both. The undeclared errors of the stations come from an earlier run. A station that
-// missed the target in that run takes no part in track initiation.
+// used for both filters. The undeclared errors of the stations come from an earlier run. A station
+// that missed the target in that run takes no part in track initiation.
 #pragma once
 
 #include <cstdint>

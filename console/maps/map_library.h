@@ -1,6 +1,6 @@
 // The users' own maps in one folder: maps made of pictures, and accuracy maps. The folder is listed
 // again at each request. A damaged map is reported, and does not affect the others. Use it in one
-// thread, which may wait for a disk.
+// thread only; the thread must be one that may wait for a disk.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Gives targets the track numbers of ASTERIX, which have 16 bits. Pure.
+// Gives targets their ASTERIX track numbers, of 16 bits each. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SAPIENT messages: the site is one node, which detects the targets. Lines of sight are not sent,
-// because SAPIENT measures bearings from the node, which has only one place. Pure.
+// because SAPIENT measures bearings from the node's place, and a node has only one place. Pure.
 #pragma once
 
 #include <map>
