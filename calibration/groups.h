@@ -53,9 +53,10 @@ struct Network {
   double ut1_sd_s = 0.3;
 };
 
-// Builds the network of a problem. Throws ObservationRefused if a reference is missing or of the
-// wrong kind, a star has no reference, a star or the sun is too low, only one station sees a track,
-// an instant is outside a trajectory, or sightings with the same pose number have different counts.
+// Builds the network of a problem. Throws ObservationRefused in these cases: a reference is missing
+// or of the wrong kind; a star has no reference; a star or the sun is too low; only one station
+// sees a track; an instant is outside a trajectory; sightings with the same pose number have
+// different counts.
 Network network_of(const Problem& problem);
 
 // The network with the sightings of one station only: the same global parameters, fewer groups.

@@ -30,9 +30,9 @@ double canonical_stereo_error_m(const PixelError& error, double base_m, double d
 // camera is in error. The paper prints arctan(r / f), which is the case p = 1.
 double rotating_pair_error_m(const PixelError& error, double base_m, double distance_m);
 
-// The largest distance from the target at which the two rays can intersect, for errors of up to
-// angle_rad in both cameras, in the plane of the cameras and the target. The possible rays of each
-// camera form a wedge, and the possible intersections fill the overlap of the two wedges. The
+// The largest distance from the target at which the two rays can intersect. Each camera's direction
+// is wrong by up to angle_rad, in the plane of the cameras and the target. The possible rays of
+// each camera form a wedge, and the possible intersections fill the overlap of the two wedges. The
 // overlap is convex. The farthest point is therefore a corner.
 double pair_error_m(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                     const Eigen::Vector3d& target, double angle_rad);

@@ -58,7 +58,7 @@ class SeenSkyline {
   // The elevation below which a point at `distance_m` is hidden. `model`: the same elevation
   // according to the map, HorizonMap::highest_before(). If the azimuth's own column has not been
   // seen, a neighbouring column can raise this elevation but not lower it, because the edge of a
-  // house may be between them.
+  // house may be between the two columns.
   Skyline hiding(const Skyline& model, double azimuth_rad, double distance_m) const;
 
  private:

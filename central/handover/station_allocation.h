@@ -5,10 +5,10 @@
 // for the best pair that the site has for this target. All other stations are free.
 //
 //  - A station that sees a target can be spared if the other stations that see this target include
-//    a good pair. A station that cannot be spared leaves its target only for another one with 1.5
-//    times the priority, and only if the stations that can be spared give that other target no good
-//    pair. If an operator wants a target, all stations whose trackers follow it stay there. Any
-//    other station may be moved.
+//    a good pair. A station that cannot be spared leaves its target only if another target has 1.5
+//    times the priority, and the stations that can be spared give that other target no good pair.
+//    If an operator wants a target, all stations whose trackers follow it stay there. Any other
+//    station may be moved.
 //  - Targets without a good pair come first. Each possible move of a station to such a target has a
 //    score: the target's priority, divided by (0.5 s + the time to turn there). The move with the
 //    highest score is made first. A station that is on its way to a target counts as being there.

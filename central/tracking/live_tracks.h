@@ -8,9 +8,9 @@
 //    the bearing is ambiguous and updates neither track. The bearings of other stations, which see
 //    the two tracks apart, go on updating both.
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
-//  - tentative -> confirmed: the track has a position, it has rejected at most as many bearings as
-//    it has used, and it has used two bearings of each of three stations, or five of each of two
-//    stations over confirm_s.
+//  - tentative -> confirmed: three conditions hold. The track has a position. It has rejected at
+//    most as many bearings as it has used. It has used two bearings of each of three stations; or
+//    it has used five bearings of each of two stations, and is at least confirm_s old.
 //  - A track made of tracklets is not confirmed while it may be a ghost. Images from detectors show
 //    whether it exists (existence.h). If only two stations see the track, there are two more
 //    reasons to suspect a ghost: their tracklets can be paired in several ways, or may agree by

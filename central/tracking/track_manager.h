@@ -6,9 +6,9 @@
 //    track.
 //  - confirmed -> coasting: fewer than two stations have seen the track for coast_s. coasting ->
 //    confirmed: two stations see it again.
-//  - any -> deleted: only two stations see it, and they are an inconsistent pair (their rays
-//    intersect only if their biases are larger than stated), or their rays intersect below or
-//    behind the ground (behind_land.h).
+//  - any -> deleted: only two stations see the track, and either they are an inconsistent pair
+//    (their rays intersect only if their biases are larger than stated), or their rays intersect
+//    below or behind the ground (behind_land.h).
 #pragma once
 
 #include <cstdint>
