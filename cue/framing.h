@@ -28,7 +28,7 @@ class Framer {
   static constexpr std::size_t kLongest_bytes = 65'536;
 
  private:
-  // Each takes the next message; false: it is not complete yet.
+  // Each takes the next message; false: this message is not complete yet.
   bool next(std::string& message);
   bool next_line(std::string& message);
   bool next_event(std::string& message);

@@ -52,8 +52,8 @@ class SeenSkyline {
   bool empty() const { return count_ == 0; }
   int count() const { return count_; }
 
-  // The skyline in the nearest column that has been seen, if one is within 0.1 degrees; otherwise
-  // nullopt.
+  // The skyline in the nearest column that has been seen, if this column is within 0.1 degrees;
+  // otherwise nullopt.
   std::optional<SeenCrest> at(double azimuth_rad) const;
   // The elevation below which a point at `distance_m` is hidden. `model`: the same elevation
   // according to the map, HorizonMap::highest_before(). If the azimuth's own column has not been

@@ -7,8 +7,8 @@
 //
 // A station is quarantined for either of two reasons:
 //  - It states an error above error_limit_s while most other stations state a smaller one. (If most
-//    stations have clocks as bad as this one, it is not quarantined: the covariances account for
-//    the errors.)
+//    stations have clocks as bad as this one, this station is not quarantined: the covariances
+//    account for the errors.)
 //  - Its stamps differ by more than offset_limit_s from the median of all stations' newest stamps.
 //    This needs three stations: with two, the wrong clock cannot be identified. A late message
 //    looks like a slow clock. The offset is therefore the smallest one among the station's last

@@ -22,10 +22,10 @@ class MessageTime {
   // stepped back: three stamps in a row are more than a second older than its newest one.
   bool hear(const std::string& station, std::int64_t utime_us);
   // The median of the newest stamps of the delivering stations; 0 before the first stamp. For an
-  // even number of stations, it is the lower of the two middle stamps: the higher one would make
-  // targets due before most stations' bearings have arrived. Untrusted stations count only while no
-  // station is trusted. With more than kMany stations, the median is recomputed only after every
-  // few messages.
+  // even number of stations, the median is the lower of the two middle stamps: the higher one would
+  // make targets due before most stations' bearings have arrived. Untrusted stations count only
+  // while no station is trusted. With more than kMany stations, the median is recomputed only after
+  // every few messages.
   std::int64_t now_us() const { return now_us_; }
   // The same median over all stations, trusted or not.
   std::int64_t middle_us() const { return middle_us_; }

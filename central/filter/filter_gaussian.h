@@ -17,8 +17,9 @@ namespace ols::fusion {
 
 inline constexpr int kFilterStations = 12;  // largest number of stations with states of their own
 // The states of a station: its rotation about east, north and up, its clock's offset, and the
-// elevation error that is fixed in its camera. If they matter at the target's range, there are
-// three more: the error of its position together with its aim (east, north, up).
+// elevation error that is fixed in its camera. If the errors of the station's position and aim
+// matter at the target's range, there are three more states: the sum of these two errors (east,
+// north, up).
 inline constexpr int kPoseStates = 5, kPlaceStates = 3;
 inline constexpr int kClockState = 3, kCameraState = 4;
 inline constexpr int kStationStates = kPoseStates + kPlaceStates;

@@ -56,7 +56,7 @@ class Fusion {
   // Notes whether a station may be slewed. For stations whose status contains no position; the
   // others use know_station().
   void allow_slews(const std::string& station, bool allowed);
-  // Processes one bearing. Call it in order of arrival.
+  // Processes one bearing. Call in the order in which the bearings arrive.
   FusionOutput add(const BearingMeasurement& measurement);
 
   // Takes a target reported from outside. A cue may cause slews, but it changes no target.

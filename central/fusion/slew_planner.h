@@ -12,8 +12,9 @@
 //  - A station that is stopped or under operator control gets no slew, because the operator has
 //    precedence over the fusion. The station itself would refuse the slew, too.
 //
-// Commanded rates stay within the rate limit. The direction of a slew may differ from the last one
-// by any angle: the station turns there at its own maximum rate. Every slew contains its lease.
+// Commanded rates stay within the rate limit. The direction of a slew may differ from that of the
+// last slew by any angle: the station turns there at its own maximum rate. Every slew contains its
+// lease.
 #pragma once
 
 #include <Eigen/Core>

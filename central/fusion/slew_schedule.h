@@ -36,7 +36,7 @@ class SlewSchedule {
     planner_.forget(station);
     forget_tracklets(station);
   }
-  // Forgets a station's tracklets, because it has restarted their numbering.
+  // Forgets a station's tracklets, because the station has restarted their numbering.
   void forget_tracklets(const std::string& station) {
     std::erase_if(tracklets_, [&](const auto& known) { return known.first.first == station; });
   }

@@ -8,7 +8,7 @@
 
 namespace ols::fusion {
 
-// The ground near a position, as a plane through the point below it.
+// The ground near a position, as a plane through the point of the ground below the position.
 struct LocalGround {
   double height_m = 0.0;  // of the ground below the position, above the ellipsoid
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();  // rise per metre east, per metre north

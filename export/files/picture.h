@@ -14,8 +14,8 @@ namespace ols::exports {
 
 struct PictureLimits {
   double history_s = std::numeric_limits<double>::infinity();
-  // Limit of the points of all tracks and lines together. To keep it, the points of each are spaced
-  // more widely in time.
+  // Limit of the points of all tracks and lines together. To keep this limit, the points of each
+  // track and line are spaced more widely in time.
   std::int64_t most_points = std::numeric_limits<std::int64_t>::max();
   // Skips objects whose height above sea level is unknown, for formats that have no other height.
   bool needs_sea = false;
