@@ -1,5 +1,5 @@
-// A message that is passed on unchanged, with its signature. Of the members of an LCM type, it has
-// only those that sending needs.
+// A message that is passed on unchanged, with its signature. RawMessage has only those members of
+// an LCM type that are needed for sending.
 #pragma once
 
 #include <algorithm>

@@ -11,8 +11,8 @@ namespace ols::calibration {
 // One sentence for each mistake that would explain the whole contradiction. The mistakes tried are:
 // two landmarks are exchanged; the sign of an axis is wrong; the two coordinates of the pixels or
 // of the landmarks are exchanged; the station's position has a wrong sign. If none of these
-// explains it, those of mistakes_of_stations() are tried. Empty if no single mistake explains the
-// contradiction.
+// explains the contradiction, the mistakes of mistakes_of_stations() are tried. Empty if no single
+// mistake explains the contradiction.
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
 
 // The same for mistakes at a station. Such a mistake looks like several mistaken references. The

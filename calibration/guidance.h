@@ -1,5 +1,5 @@
 // Finds the most helpful next sighting. For each candidate, predicts the systematic error that
-// would remain after sighting it, over the directions in which a station works.
+// would remain after sighting the candidate, over the directions in which a station works.
 #pragma once
 
 #include <optional>

@@ -11,8 +11,8 @@
 namespace ols::calibration {
 
 // The test statistic of a group: the decrease of the misfit when a kept group is left out, or the
-// increase when a rejected group is added. If the group is right, it is a chi-square with the
-// group's degrees of freedom.
+// increase when a rejected group is added. If the group is right, the statistic is a chi-square
+// with the group's degrees of freedom.
 double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
 // The same for a part of a block: the decrease of the misfit when the equations `now` are replaced

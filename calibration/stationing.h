@@ -123,7 +123,7 @@ struct Stationing {
   std::vector<LandmarkTest> landmarks;
   ModelTest global;
   // The w-test of each prior (tilt x, tilt y, mount z, mount x, mount y, east, north, up). If the
-  // prior is right, it is standard normal. 0 for a prior without a deviation.
+  // prior is right, the value is standard normal. 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
   double scaled_by = 1.0;  // factor by which the global test has enlarged the deviations
   // The station's position, improved by the landmarks, and the 1-sigma of its worst axis.

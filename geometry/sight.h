@@ -64,7 +64,7 @@ std::optional<PanTilt> aim_at(const StationGeometry& station, const Eigen::Vecto
                               const std::optional<Eigen::Vector2d>& pixel = std::nullopt);
 
 // The PTU angles at which the optical axis points in this direction (relative to the horizon at the
-// camera centre). nullopt if no pan and tilt angles reach it.
+// camera centre). nullopt if no pan and tilt angles reach this direction.
 std::optional<PanTilt> aim_along(const StationGeometry& station, const AzimuthElevation& direction);
 
 // The direction of the optical axis, relative to the horizon at the camera centre.

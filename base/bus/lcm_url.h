@@ -27,7 +27,7 @@ std::string lcm_url_problem(const std::string& url);
 
 // The URL for programs without a configuration. The hosts of a site have the file `bus_env`, which
 // tells ols-bus.service the network interface of the bus. If this host has the file, the bus of the
-// URL reaches the other hosts; otherwise it stays on this host.
+// URL reaches the other hosts; otherwise the bus stays on this host.
 std::string default_lcm_url(const std::string& bus_env = "/etc/ols/bus.env");
 
 }  // namespace ols

@@ -1,5 +1,5 @@
-// Reads the bus's messages from an LCM log, starting at any record. Skips bytes that belong to no
-// record, counts them, and keeps the position of the first.
+// Reads the bus's messages from an LCM log, starting at any record. Skips and counts bytes that
+// belong to no record, and keeps the position of the first such byte.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Writes the beginning and the end of a program's alarms into the journal, without flooding it.
+// Writes the beginning and the end of a program's alarms into the journal, at a limited rate
+// (journal_rate_limit.h).
 #pragma once
 
 #include <functional>

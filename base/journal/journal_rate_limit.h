@@ -1,5 +1,5 @@
 // Limits how often a program writes the beginning and the end of a condition into the journal, so
-// that a condition that comes and goes does not flood it. Pure.
+// that a condition that comes and goes does not flood the journal. Pure.
 #pragma once
 
 #include <cstdint>

@@ -15,8 +15,8 @@ class TroubleLog {
   // Call regularly. Empty `trouble`: the input or output works. `now_s`: monotonic.
   void look(const std::string& name, const std::string& trouble, double now_s);
 
-  // The end of a trouble, or its change into another trouble, is logged only when it has lasted
-  // this long.
+  // The end of a trouble, or its change into another trouble, is logged only when the new state has
+  // lasted this long.
   static constexpr double kSettled_s = 10.0;
 
  private:

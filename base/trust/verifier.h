@@ -1,7 +1,8 @@
-// Decides whether a message of the bus may be believed. It must be signed by a member of the site
-// whose role may send it. It must also be meant for this process, fresh, and new. Cheap checks come
-// first. Therefore a stranger's message costs almost nothing, and a member that sends too much is
-// refused before its signatures are verified. Pure.
+// Decides whether a message of the bus may be believed. The message must be signed by a site member
+// whose role permits sending it. It must also be meant for this process, be stamped close to this
+// host's time, and not be a replay. Cheap checks come first. Therefore a stranger's message costs
+// almost nothing, and a member that sends too much is refused before its signatures are verified.
+// Pure.
 #pragma once
 
 #include <cstddef>

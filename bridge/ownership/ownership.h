@@ -82,7 +82,7 @@ class Ownership {
               const Now& now);
 
   // Tells whether the store answers now. After an outage of the store, every lease counts from the
-  // end of the outage, because nobody could renew it before.
+  // end of the outage, because nobody could renew a lease during the outage.
   void feel_store(bool answers, const Now& now);
 
   // Returns the requests that are due now. Call about 20 times a second.

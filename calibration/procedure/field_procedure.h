@@ -27,8 +27,8 @@ enum class Outcome { kRunning, kAccepted, kKeptOld, kAborted };
 class FieldProcedure {
  public:
   using Redo = std::function<void(const std::string& reference)>;
-  // `redo`: called when the person wants one reference to be sighted again; it must make the last
-  // stage do so.
+  // `redo`: called when the person wants one reference to be sighted again; this function must make
+  // the last stage sight the reference again.
   FieldProcedure(std::vector<std::unique_ptr<Stage>> stages, Redo redo);
 
   // The current order. nullopt if the stages are complete and adjusted() must be called next, or if

@@ -15,12 +15,13 @@ namespace ols::fusion {
 double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
                   const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
 
-// How plausible it is that the target is at this position: the smaller of two probabilities, that
-// the target is visible from the camera, and that it is not below the ground.
+// How plausible a target's position is. Returns the smaller of two probabilities: that the target
+// is visible from the camera, and that the target is not below the ground.
 double plausibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
                     const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
 
-// A plausibility below this value means: below the ground, or hidden by it, by more than 3 sigmas.
+// A plausibility below this value means that the target is below the ground, or hidden by the
+// ground, by more than 3 sigmas.
 inline constexpr double kImplausible = 0.00135;
 
 }  // namespace ols::fusion

@@ -61,8 +61,8 @@ struct RayUse {
   bool used = false;    // false if rejected as an outlier
   double weight = 0.0;  // 0..1, the robust weight
   // The squared normalised residual of both components together, and its expected value if all
-  // covariances are right. Averaged over many epochs, they show whether a station's covariances are
-  // right.
+  // covariances are right. Averaged over many epochs, these two values show whether a station's
+  // covariances are right.
   double squared = 0.0;
   double expected = 0.0;
   // For each component (cross-elevation, elevation): the residual; the variance with which the ray

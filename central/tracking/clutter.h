@@ -17,8 +17,9 @@ namespace ols::fusion {
 class Clutter {
  public:
   // Each of these three functions takes a bearing of a tracklet. unclaimed: no track takes the
-  // bearing. undecided: a tentative track takes it, or it is ambiguous; if the tracklet ends in
-  // this state, it was clutter. claimed: a target takes the bearing; the tracklet is not clutter.
+  // bearing. undecided: a tentative track takes the bearing, or the bearing is ambiguous; if the
+  // tracklet ends in this state, it was clutter. claimed: a target takes the bearing; the tracklet
+  // is not clutter.
   void unclaimed(const BearingMeasurement& measurement) { note(measurement, false); }
   void undecided(const BearingMeasurement& measurement) { note(measurement, true); }
   void claimed(const BearingMeasurement& measurement);

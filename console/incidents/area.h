@@ -22,8 +22,8 @@ struct Area {
   double lowest_m = 0.0, highest_m = 0.0;  // above the WGS84 ellipsoid
   std::vector<std::string> classes;        // names of wire::kObjectClasses; empty: all
   // The area is watched between these minutes of the day, in the time zone of the console's host.
-  // If both are equal, it is always watched. If the end is before the beginning, the end is on the
-  // next day.
+  // If both are equal, the area is always watched. If the end is before the beginning, the end is
+  // on the next day.
   int from_min = 0, to_min = 0;
 };
 
