@@ -20,8 +20,8 @@ struct FollowedSighting {
   std::int64_t utime_us = 0;  // UTC
   UnitReading reading;        // approach 0 if unknown
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;
-  double clock_sd_s = 0.0;
+  double sd_px = 0.0;       // 1-sigma of each coordinate
+  double clock_sd_s = 0.0;  // 1-sigma of utime_us
 };
 
 // A sighting at a whole second, interpolated between the exposures before and after it. Its sd_px

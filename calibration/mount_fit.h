@@ -30,7 +30,7 @@ struct MountFit {
   Measured gain;                 // near 1; near -1: the reported angles have the wrong sign
   Measured backlash_rad;         // 0 with sd 0: all positions were approached from one side
   Measured delay_s;              // in addition to the delay that the station assumes
-  double position_sd_rad = 0.0;  // of a position reported at rest, compared with the picture
+  double position_sd_rad = 0.0;  // 1-sigma of a position reported at rest, as pictures show it
   int rests = 0, moves = 0;      // numbers of pictures, at rest and in motion, that fit
 };
 

@@ -20,8 +20,8 @@ struct ZoomPair {
 struct ZoomFitOptions {
   // 1-sigma of an angle of the unit, without the error that is common to all angles.
   double angle_sd_rad = 5e-5;
-  double centre_sd_px = 10.0;  // prior of the principal point
-  double k1_sd = 0.05;         // prior of the radial distortion
+  double centre_sd_px = 10.0;  // 1-sigma of the prior of the principal point
+  double k1_sd = 0.05;         // 1-sigma of the prior of the radial distortion
 };
 
 struct ZoomFit {

@@ -19,9 +19,9 @@ struct InputRules {
   Area area_deg{-90.0, -180.0, 90.0, 180.0};
   double max_age_s = 10.0;
   double horizontal_sd_m = 50.0, vertical_sd_m = 100.0;
-  double pressure_height_sd_m = 300.0;  // error of a pressure altitude that is used as a height
+  double pressure_height_sd_m = 300.0;  // 1-sigma of a pressure altitude that is used as a height
                                         // above the ellipsoid
-  double velocity_sd_m_s = 3.0;         // error of a stated velocity whose error is not stated
+  double velocity_sd_m_s = 3.0;         // 1-sigma of a stated velocity whose error is not stated
   double speed_sd_m_s = 15.0;           // 1-sigma of each axis if the source states no velocity,
                                         // which is then taken as 0
 };

@@ -57,7 +57,7 @@ struct PlannedStation {
   // Constant errors. mount_roll_rad has no effect here, because a roll about the optical axis does
   // not move this axis.
   CalibrationSd calibration;
-  double clock_sd_s = 0.0;  // constant; the target moves during this time
+  double clock_sd_s = 0.0;  // 1-sigma, constant; the target moves during this time
   // Whether a point [m, ECEF] is in sight of the station. If empty, the land hides nothing.
   std::function<bool(const Eigen::Vector3d& p_ecef)> sees = {};
 

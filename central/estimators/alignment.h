@@ -20,8 +20,8 @@ namespace ols::fusion {
 struct AlignmentConfig {
   double window_s = 0.3;       // time span of the fitted bearings
   double max_age_s = 0.3;      // a station without a bearing this close to the epoch gives no ray
-  double rate_sd_rad_s = 1.0;  // prior of the angular rate
-  double acceleration_sd_m_s2 = 5.0;  // prior of the target's acceleration
+  double rate_sd_rad_s = 1.0;  // 1-sigma of the prior of the angular rate
+  double acceleration_sd_m_s2 = 5.0;  // 1-sigma of the target's possible acceleration
   double range_unknown_m = 50.0;      // assumed range while the position is unknown
 };
 

@@ -18,7 +18,7 @@ struct LeastSquaresConfig {
   // The limit of chi^2 up to which rays are consistent, given as a one-sided normal deviate: 3.1
   // corresponds to a probability of 0.999.
   double gate_sigma = 3.1;
-  double huber_sigma = 2.0;  // if no consistent subset exists, rays beyond this are down-weighted
+  double huber_sigma = 2.0;  // rays beyond this are down-weighted, if no consistent subset exists
   double range_sd_limit = 0.3;  // largest 1-sigma relative to the range; beyond it: "parallel rays"
   double max_range_m = 500e3;
   int max_iterations = 30;

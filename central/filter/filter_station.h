@@ -21,10 +21,10 @@ struct FilterStation {
   int rejected = 0;  // number of consecutive rejections since the last used bearing
   // If one of these ids changes, the station has a new bias.
   std::int64_t calibration_id = 0, track_id = 0;
-  double weight = 0.0;      // of the last bearing; 0 if it was rejected
-  double clock_sd_s = 0.0;  // as learnt from the bearings
-  double stated_clock_sd_s = 0.0;
-  double mean_nis = 2.0;  // recent mean over the used bearings; 2 is ideal
+  double weight = 0.0;             // of the last bearing; 0 if it was rejected
+  double clock_sd_s = 0.0;         // 1-sigma of the clock, as learnt from the bearings
+  double stated_clock_sd_s = 0.0;  // 1-sigma of the clock, as stated by the station
+  double mean_nis = 2.0;           // recent mean over the used bearings; 2 is ideal
   ColouredNoise noise{};
 
   // Takes note of a bearing that was used, with its weight.

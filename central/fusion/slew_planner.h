@@ -55,7 +55,7 @@ struct Slew {
   AzimuthElevation direction;        // relative to the horizon at the camera centre
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
-  double direction_sd_rad = 0.0;
+  double direction_sd_rad = 0.0;  // 1-sigma, each axis; in a search along a ray: across the ray
   // In a search along a ray: the unit vector of the ray on the tangent plane. Zero otherwise. If
   // the station is to recognise a cue's object by its motion, in whatever direction the object
   // moves: (1, 0).

@@ -18,8 +18,8 @@
 namespace ols::fusion {
 
 struct Emergence {
-  double in_s = 0.0;  // time from the first instant of the path
-  double sd_s = 0.0;
+  double in_s = 0.0;                                     // time from the first instant of the path
+  double sd_s = 0.0;                                     // 1-sigma of in_s
   AzimuthElevation direction;                            // at the camera
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] cross-elevation, elevation
 };

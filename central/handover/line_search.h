@@ -86,7 +86,7 @@ struct LineLook {
   AzimuthElevation direction;  // relative to the horizon at the camera centre
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();  // on the tangent plane
   Eigen::Vector2d line = Eigen::Vector2d::UnitX();       // direction of the line there
-  double sd_rad = 0.0;                                   // across the line
+  double sd_rad = 0.0;                                   // 1-sigma across the line
 };
 
 // One station's sweep along a ray. The ray moves with its target.

@@ -19,7 +19,7 @@ struct Ray {
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2] white
   // White variance of one bearing before alignment, as the mean of both axes.
   double bearing_variance_rad2 = 0.0;
-  double clock_sd_s = 0.0;  // systematic
+  double clock_sd_s = 0.0;  // 1-sigma of the time stamps, systematic
   double belief = 1.0;
   // Epoch minus time of the station's newest bearing (< 0: the bearing is newer)
   double age_s = 0.0;
