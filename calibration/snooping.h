@@ -69,9 +69,9 @@ using TellAdjusted = std::function<void()>;
 
 bool is_finite(const Fit& fit);
 
-// Data snooping. In each round, if a rejected group passes its test, the one that passes best is
-// accepted again. Otherwise, the kept group that fails its test worst is rejected. The search ends
-// if no group changes, or if the set of kept groups was tried before. `tell` is called in each
+// Data snooping. In each round, if any rejected groups pass their tests, the group that passes best
+// is accepted again. Otherwise, the kept group that fails its test worst is rejected. The search
+// ends if no group changes, or if the set of kept groups was tried before. `tell` is called in each
 // round.
 Fit snoop(const Adjustment& adjustment, const Start& start, const Search& search,
           const TellAdjusted& tell = {});

@@ -28,8 +28,8 @@ class Clutter {
   double pairs_a_day(const std::string& a, const std::string& b, double agreed_s) const;
   int pairs_of_stations() const;
   // The expected number per day of chance pairs that the whole site publishes as targets, if no
-  // third station looks there. Adds up pairs_a_day() over all pairs of stations, but at most
-  // most_of_a_pair for each.
+  // third station looks there. The sum of pairs_a_day() over all pairs of stations, in which each
+  // pair counts at most `most_of_a_pair`.
   double published_a_day(double agreed_s, double most_of_a_pair) const;
 
  private:

@@ -2,16 +2,16 @@
 // by noise. Pure.
 //
 // A station that sees two objects has two bearings in most exposures. A station that sees one
-// object has one bearing, which both tracks explain, or sometimes one track and sometimes the
-// other. Pairs of tracks that have explained the same bearing are therefore examined. For each pair
-// and each station, three numbers are counted: the exposures with a single bearing for the two
-// tracks, the exposures whose single bearing both tracks explain, and the exposures with more than
-// one bearing.
+// object has one bearing. Either both tracks explain it, or sometimes one track explains it and
+// sometimes the other. Pairs of tracks that have explained the same bearing are therefore examined.
+// For each pair and each station, three numbers are counted: the exposures with a single bearing
+// for the two tracks, the exposures whose single bearing both tracks explain, and the exposures
+// with more than one bearing.
 //
 // Some stations follow a single object and never have more than one bearing. The tracks therefore
 // count as two objects, not as duplicates, in two cases. Either a station sees them apart: both
-// tracks explain only a small share of its bearings. Or at most of the stations, one of the two
-// tracks almost always explains the bearings best.
+// tracks explain only a small share of its bearings. Or at the majority of the stations, one of the
+// two tracks almost always explains the bearings best.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ struct DuplicatesConfig {
   double least_single = 15.0;  // smallest number of exposures with one bearing for the two tracks
   double most_apart = 0.05;    // largest share of exposures with more bearings
   double both_explain = 0.3;   // smallest share of each station's bearings that both tracks explain
-  // At most of the stations, each of the two tracks must explain at least this share of bearings
-  // best.
+  // At the majority of the stations, each of the two tracks must explain at least this share of
+  // bearings best.
   double each_best = 0.15;
 };
 
