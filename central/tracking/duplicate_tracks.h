@@ -10,7 +10,7 @@
 //
 // Some stations follow a single object and never have more than one bearing. The tracks therefore
 // count as two objects, not as duplicates, in two cases. Either a station sees them apart: both
-// tracks explain only a small share of its bearings. Or at the majority of the stations, one of the
+// tracks explain only a small share of its bearings. Or at half or more of the stations, one of the
 // two tracks almost always explains the bearings best.
 #pragma once
 
