@@ -1,5 +1,5 @@
-// Wakes the thread of a simulated camera that makes the exposures. The thread waits for an instant,
-// a trigger, a client, or the end of the camera. All methods are thread-safe.
+// Wakes the thread that makes the exposures of a simulated camera. The thread waits for an instant,
+// a trigger, a client's command, or the end of the camera. All methods are thread-safe.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ class ExposureCue {
   using Triggered = std::pair<Trigger, Clock::time_point>;
 
   void trigger(Trigger source);
-  // The client has sent a command; it may have started the stream.
+  // A client has sent a command, which may start the stream.
   void client_spoke();
   void end();
 

@@ -1,4 +1,4 @@
-// A camera on a fixed mount, with the interface of a PTU; its angles never change.
+// A fixed mount with the interface of a PTU: the camera's angles never change.
 #pragma once
 
 #include "sim/ptu/device.h"

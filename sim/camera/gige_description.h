@@ -7,7 +7,7 @@ namespace ols::sim::gige {
 
 // The names by which clients address the features.
 enum class FeatureNames {
-  kGt1290c,  // of a Prosilica GT1290C; they are older than GenICam's convention
+  kGt1290c,  // the names of a Prosilica GT1290C, older than GenICam's convention
   kSfnc,     // GenICam's Standard Features Naming Convention 2.x
 };
 

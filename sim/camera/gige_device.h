@@ -21,7 +21,7 @@ struct StreamSettings {
   std::uint32_t address = 0;  // of the client, network byte order
   std::uint16_t port = 0;
   int packet_size = 0;          // [byte] IP packet
-  double packet_delay_s = 0.0;  // between the starts of two packets
+  double packet_delay_s = 0.0;  // between the starts of two successive packets
   std::uint32_t width = 0, height = 0;
   std::uint32_t format = 0;  // PFNC code
   double exposure_s = 0.0;
@@ -48,7 +48,7 @@ struct GigeDeviceConfig {
   int width_px = 0, height_px = 0;
   double exposure_s = 0.005;
   gige::FeatureNames names = gige::FeatureNames::kGt1290c;
-  // False: the register of the tick frequency reads 0, as in some firmware.
+  // False: the register with the clock's tick frequency reads 0, as with some firmware.
   bool tick_frequency = true;
 };
 
@@ -74,7 +74,7 @@ class GigeDevice {
 
   // can_resend: whether the camera claims to support packet resend. pixel_format: GenICam's name of
   // a format that the camera uses from the next connection on, whatever format a client writes;
-  // empty: the client's. Throws std::invalid_argument for an unknown name.
+  // empty: the camera uses the client's format. Throws std::invalid_argument for an unknown name.
   void set_faults(bool can_resend, const std::string& pixel_format);
 
  private:
@@ -98,11 +98,11 @@ class GigeDevice {
 
   const GigeDeviceConfig config_;
   mutable std::mutex mutex_;
-  std::vector<std::uint8_t> memory_;  // registers and, behind them, the description
+  std::vector<std::uint8_t> memory_;  // the registers, followed by the GenICam description
   std::optional<std::uint64_t> controller_;
-  double heard_s_ = 0.0;  // last packet from the controller
+  double heard_s_ = 0.0;  // when the controlling client last sent a packet
   bool can_resend_ = true;
-  bool triggered_ = false;             // by the packet being handled
+  bool triggered_ = false;             // whether the packet being handled is a software trigger
   std::optional<double> ptp_since_s_;  // when PTP was switched on
   std::optional<std::uint32_t> kept_format_,
       kept_format_next_;  // PFNC codes of the enforced format: now, and from the next connection on

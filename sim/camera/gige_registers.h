@@ -1,12 +1,12 @@
-// The registers of the simulated GigE Vision camera: the standard's bootstrap registers, and
-// registers of this camera.
+// The registers of the simulated GigE Vision camera: the bootstrap registers of the standard, and
+// the camera's own registers.
 #pragma once
 
 #include <cstdint>
 
 namespace ols::sim::gige {
 
-constexpr std::uint32_t kMemory = 0x10000;  // [byte]; the GenICam description follows
+constexpr std::uint32_t kMemory = 0x10000;  // [byte] of registers; the GenICam description follows
 
 // GigE Vision 1.x, bootstrap registers.
 constexpr std::uint32_t kVersion = 0x0000, kDeviceMode = 0x0004;
@@ -42,7 +42,7 @@ constexpr std::uint32_t kPtpMode = 0xa060, kPtpStatus = 0xa064;
 constexpr std::uint32_t kTemperature_degC = 0xa070;
 constexpr std::uint32_t kStreamBytesPerSecond = 0xa080;
 
-// Values of kTriggerSource; 1 to 4 are the lines.
+// Values of kTriggerSource. The values 1 to 4 are the trigger lines.
 constexpr std::uint32_t kFreerun = 0, kFixedRate = 5, kSoftware = 6;
 // Values of kPtpStatus. kPtpMode is 0 if PTP is off.
 constexpr std::uint32_t kPtpOff = 0, kPtpSyncing = 1, kPtpSlave = 2;

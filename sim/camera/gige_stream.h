@@ -27,8 +27,8 @@ class GigeStream {
   // An image to draw into. It may reuse the memory of the oldest frame, which is then no longer
   // available for resend.
   cv::Mat blank(int width_px, int height_px, int type);
-  // Sends the image at the packet rate that the client has set, and keeps it for resend(). Returns
-  // at once, unless images come faster than they can be sent at that rate.
+  // Sends the image at the packet rate that the client has set, and keeps it for resend(). Normally
+  // returns at once; waits if images come faster than they can be sent at that rate.
   void send(const StreamSettings& settings, const gige::Picture& description,
             const cv::Mat& picture);
   void resend(const ResendRequest& request);

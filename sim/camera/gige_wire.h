@@ -51,8 +51,8 @@ struct Picture {
   std::uint32_t width = 0, height = 0;
 };
 
-constexpr int kUdpOverhead = 20 + 8;  // counted in the packet size that a client sets
-constexpr int kHeader = 8;            // of every stream packet
+constexpr int kUdpOverhead = 20 + 8;  // [byte] IP and UDP headers, part of the set packet size
+constexpr int kHeader = 8;            // [byte] header of every stream packet
 
 constexpr std::uint32_t payload_packets(std::size_t bytes, std::size_t per_packet) {
   return static_cast<std::uint32_t>((bytes + per_packet - 1) / per_packet);

@@ -1,5 +1,5 @@
-// A simulated IP camera: serves its pictures by RTSP. Its sender reports (RTCP) give the time of
-// its own clock. While a client is connected, a callback draws the pictures.
+// A simulated IP camera: serves its pictures by RTSP. Its RTCP sender reports give the time of the
+// camera's own clock. While a client is connected, a callback draws the pictures.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace ols::sim {
 enum class VideoCodec { kH264, kJpeg };
 
 struct RtspServerConfig {
-  std::string address;         // of an interface
+  std::string address;         // of the network interface to use
   int port = 8554;             // 0: any
   std::string user, password;  // empty: no login
   VideoCodec codec = VideoCodec::kH264;
@@ -24,7 +24,7 @@ struct RtspServerConfig {
   double frame_rate_hz = 25.0;
   double exposure_s = 0.005;
   double delay_s = 0.05;  // from the end of the exposure to the encoder
-  int key_every = 25;     // pictures
+  int key_every = 25;     // [pictures] distance between key frames
   int kbit_s = 8000;
 };
 
@@ -36,7 +36,7 @@ class RtspServer {
   ~RtspServer();
 
   std::string url() const;  // "rtsp://127.0.0.1:8554/video"
-  // The camera sends another size from now on, as after a change of its settings.
+  // From now on, the camera sends pictures of another size, as after a change of its settings.
   void set_size(int width_px, int height_px);
   void set_faults(const CameraFaults& faults);
   // Number of connections since the start.

@@ -15,7 +15,7 @@
 namespace ols::sim {
 
 struct SimulatedCameraConfig {
-  std::string address;  // an address that the interface really has, for example 127.0.0.11
+  std::string address;  // one that an interface of this host has, for example 127.0.0.11
   std::string serial;   // the device id is "AVT-<serial>"
   int width_px = 1280;  // of the sensor
   int height_px = 960;
@@ -49,12 +49,14 @@ class SimulatedCamera {
   // Factors of red, green and blue on gray.
   static constexpr std::array<double, 3> kTint = {1.0, 0.9, 0.7};
 
-  // A pulse on one of the lines 1 to 4: exposes, if the camera waits for a trigger on that line.
+  // Puts a pulse on one of the lines 1 to 4. If the camera waits for a trigger on that line, it
+  // exposes.
   void pulse(int line);
 
   // The camera forgets the size set by the client, as after a reset.
   void set_size(int width_px, int height_px);
-  // Switches the camera off and on: it loses its settings. It answers without interruption.
+  // Switches the camera off and on: it loses its settings. Unlike a real camera, it answers all the
+  // time.
   void power_cycle();
 
   // Faults of the camera from now on; from any thread.

@@ -13,7 +13,7 @@
 namespace ols::sim {
 
 struct GpioServerConfig {
-  std::string path;  // of the socket; replaces an old socket
+  std::string path;  // of the socket; an old socket at this path is replaced
   int stop_line = 17;
   bool stop_active_low = false;  // as in GpioConfig
   int rearm_line = 18;

@@ -27,7 +27,8 @@ class LensUnit {
   void receive(std::string_view bytes, double time_s);
   // The bytes that are on the line by this time. Each byte is returned once.
   std::string transmit(double time_s);
-  // When transmit() will return something, as far as known now.
+  // When transmit() will next return something, as far as known now; nullopt: not before the lens
+  // receives something.
   std::optional<double> next_output_s() const;
 
   // The true zoom position at an instant of the last two seconds, 0 widest .. 1 longest.

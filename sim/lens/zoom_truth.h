@@ -14,9 +14,10 @@ struct Row;
 namespace ols::sim {
 
 struct ZoomScenario {
-  std::array<double, 2> range_mm{};  // widest, longest; 0: a fixed lens
-  double travel_s = 3.0;             // from end to end at full speed
-  double focal_sd = 0.002;           // 1-sigma of each calibrated focal length, relative
+  // Shortest and longest focal length; both 0: a lens without zoom.
+  std::array<double, 2> range_mm{};
+  double travel_s = 3.0;    // from end to end at full speed
+  double focal_sd = 0.002;  // 1-sigma of each calibrated focal length, relative
   bool is_fixed() const { return range_mm[0] == 0.0 && range_mm[1] == 0.0; }
 };
 
@@ -32,7 +33,8 @@ class ZoomTruth {
 
   CameraIntrinsics camera_at(double position) const;
 
-  // The calibration: nine points, each with its own error.
+  // The calibration: nine points of the zoom's travel. Each point's focal length and optical centre
+  // have errors of their own.
   std::vector<ZoomPoint> calibrated(double focal_sd, std::uint64_t seed) const;
 
  private:

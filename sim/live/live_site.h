@@ -29,8 +29,8 @@ class LiveSite {
   LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
   ~LiveSite();
 
-  // Publishes OLS_SIM_TRUTH (the targets) and OLS_SIM_PTU_<station> (the PTUs): their states now
-  // and since the last call.
+  // Publishes the present state of each target (OLS_SIM_TRUTH), and the angles of each PTU since
+  // the last call (OLS_SIM_PTU_<station>).
   void publish_truth();
 
   // Applies the active faults to every device. Call every few milliseconds, in the thread that

@@ -14,8 +14,8 @@ namespace ols::sim {
 
 struct MeasurementNoise {
   double pixel_sd_px = 0.3;  // white
-  // Remaining share of the white noise. 0: all averaged away; no smoother can be better than this
-  // bound.
+  // Remaining share of the white noise. With 0, averaging has removed all of it, and no smoother
+  // can be better than this bound.
   double white_share = 1.0;
 };
 

@@ -24,16 +24,17 @@ struct JudgedExit {
 struct HiddenSpan {
   std::string station;
   double from_s = 0.0, to_s = 0.0;
-  bool predicted = false;  // at the middle of the span, the station had a valid notice of it
-  // Frames of the span after the station's coasting time, and how many of them have each state.
+  bool predicted = false;  // at the middle of the span, a valid occlusion notice predicted it
+  // Number of the span's frames after the station's coasting time, and number of those frames in
+  // which the station was in each of three states.
   int frames = 0, lost = 0, slewed = 0, hidden = 0;
   std::optional<double> found_s;  // time from the end of the span until the station tracks again
   // The exit as predicted just after the beginning of the span, and shortly before its end.
   std::optional<JudgedExit> first, last;
 };
 
-// The spans of at least 1.2 s in a finished run. They begin after all stations were designated and
-// end before the last frame.
+// Returns the spans of at least 1.2 s in a finished run. Spans that began before all stations had a
+// designation, or that lasted until the last frame, are left out.
 std::vector<HiddenSpan> hidden_spans(const World& world, const LockstepResult& result);
 
 }  // namespace ols::sim

@@ -11,15 +11,15 @@
 
 namespace ols::sim {
 
-// Times in seconds after the click or cue, by station. A station that never got this far has no
-// entry.
+// Times in seconds after the click or cue, by station. A map has no entry for a station that never
+// got that far.
 struct LeadTimes {
   std::map<std::string, double> in_picture;  // until the target is in its picture
   std::map<std::string, double> acquired;    // until it first tries to follow a detected object
   std::map<std::string, double> follows;     // until it tracks the target in its picture
   std::map<std::string, int> acquisitions;   // number of objects tried so far
   std::optional<double> located;             // until the fusion has a position
-  std::size_t stations = 0;                  // number of stations that are to follow
+  std::size_t stations = 0;  // number of stations that are expected to follow the target
 
   bool complete() const { return follows.size() == stations; }
 };

@@ -45,7 +45,8 @@ struct LockstepResult {
   std::vector<StationRecord> stations;
   std::map<std::string, double> counters;  // of the fusion at the end
   std::vector<Alarm> alarms;               // of the fusion at the end
-  double designated_s = -1.0;  // when the last station was designated; < 0: not all were
+  // When the last station got its designation; < 0: some station got none.
+  double designated_s = -1.0;
 };
 
 class Lockstep {

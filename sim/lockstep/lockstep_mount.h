@@ -24,7 +24,7 @@ class LockstepMount {
   virtual std::vector<mount::AngleSample> take_samples() = 0;
   virtual void set_goal(const std::optional<mount::Goal>& goal) = 0;
   virtual mount::Reference reference() const = 0;
-  virtual std::optional<mount::Limits> limits() const = 0;  // empty until it is ready
+  virtual std::optional<mount::Limits> limits() const = 0;  // nullopt until the mount is ready
   // The shafts' angles as the unit counts them, at an instant from two seconds ago to now.
   virtual PanTilt angles_at(double time_s) const = 0;
   virtual std::map<std::string, double> counters() const = 0;

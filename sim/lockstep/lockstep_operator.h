@@ -56,7 +56,7 @@ class LockstepOperator {
   const World& world_;
   std::size_t index_;
   LockstepNoise& noise_;
-  const LockstepMount& mount_;  // the image shows the operator whether the mount moves
+  const LockstepMount& mount_;  // tells whether the mount moves, as a real image does
   station::Station& station_;
   std::optional<Misdesignation> wrong_;
   bool leaves_alone_;

@@ -25,8 +25,8 @@
 
 namespace ols::sim {
 
-// The station's result and the truth for one frame. While the station waits for its designation,
-// there are no notes.
+// The station's result and the truth for one frame. No notes are taken while the station waits for
+// its designation.
 struct FrameNote {
   double mid_s = 0.0;  // true time since the scenario's start
   station::StationState state = station::StationState::kIdle;
@@ -63,8 +63,8 @@ class LockstepStation {
   station::Refusal slew(station::SlewCommand command, double time_s);
   station::Refusal occlude(station::OcclusionCommand command, double time_s);
   const station::Station& station() const { return station_; }
-  // For a caller that gives the station orders between two calls of advance(). Times in these
-  // orders are monotonic_s() of now.
+  // For a caller that gives the station orders between two calls of advance(). The times in these
+  // orders must be monotonic_s() of the present instant.
   station::Station& station() { return station_; }
   // The truth about the newest picture.
   const ViewTruth& view() const { return views_.newest(); }

@@ -1,5 +1,5 @@
-// A click in the overview station's picture, in simulated time: measures the time until the
-// tracking stations, which have never seen the target, follow it.
+// Simulates a click in the overview station's picture, and measures in simulated time how long
+// tracking stations that have never seen the target take to follow it.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,16 @@
 namespace ols::sim {
 
 struct ClickConfig {
-  double elapsed_s = 0.0;  // of the flight before the scenario's start
+  double elapsed_s = 0.0;  // the scenario starts this long after the beginning of the flight
   double aimed_s = 2.0;    // when the operator turns the station towards the target
   double clicked_s = 4.5;  // when the operator clicks on the target
   double zoom = 0.3;       // the zoom position at the click, as a share of the lens's travel
   double patience_s = 20.0;
 };
 
-// The scenario must have an overview station and a target. With pictures, two processors need a
-// minute for ten seconds of five stations. Throws std::runtime_error if the click finds nothing.
+// The scenario must have an overview station and a target. The simulation draws all pictures: ten
+// simulated seconds of five stations take a minute on two processors. Throws std::runtime_error if
+// the click finds nothing.
 LeadTimes click_in_overview(const Scenario& scenario, std::uint64_t seed,
                             const ClickConfig& config);
 

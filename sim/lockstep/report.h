@@ -14,12 +14,12 @@ struct EstimatorSummary {
   double predicted_rmse_m = 0.0;  // root of the mean trace of the published covariances
   Eigen::Vector3d nees_axis = Eigen::Vector3d::Zero();  // mean error^2 / variance: east, north, up
   double nees = 0.0;                                    // mean of e' C^-1 e / 3
-  double latency_median_s = 0.0, latency_p95_s = 0.0;   // from the epoch to its publication
+  double latency_median_s = 0.0, latency_p95_s = 0.0;  // from the epoch of a fix to its publication
 };
 
 struct BoundSummary {
   double crb_rmse_m = 0.0;  // root of the bound's mean trace, with one exposure of each station
-  double crb_horizontal_rmse_m = 0.0;  // the horizontal part
+  double crb_horizontal_rmse_m = 0.0;  // the same for the horizontal position only
   double crb_floor_rmse_m = 0.0;       // with all white noise averaged away
 };
 

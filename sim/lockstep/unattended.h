@@ -1,5 +1,5 @@
-// A site without operators, in simulated time: when it sees, locates and classifies each flying
-// object.
+// A site without operators, in simulated time: measures when the site first sees, locates and
+// classifies each flying object.
 #pragma once
 
 #include <map>
@@ -15,9 +15,9 @@ namespace ols::sim {
 
 // When the site found one target of the scenario, in seconds of the scenario.
 struct FoundTarget {
-  std::optional<double> seen_s;     // first near a published line of sight or position
-  std::optional<double> located_s;  // first near a published position
-  std::optional<double> named_s;    // first published with the right class
+  std::optional<double> seen_s;     // time of the first line of sight or position near the target
+  std::optional<double> located_s;  // time of the first position near the target
+  std::optional<double> named_s;    // when it was first published with the right class
   int wrong_names = 0;              // publications with a wrong class; 'unknown' is not wrong
   std::set<std::int64_t> identities;
 };
@@ -25,9 +25,9 @@ struct FoundTarget {
 struct UnattendedRun {
   std::map<std::string, FoundTarget> targets;  // by the target's id in the scenario
   std::set<std::int64_t> ghosts;               // ids of targets published where nothing flies
-  // Publications of something else as a drone; each would raise an alarm.
+  // Number of publications that call something else a drone; each would raise an alarm.
   int drones_that_are_none = 0;
-  std::size_t stations_on_it = 0;  // that follow the first target at the end
+  std::size_t stations_on_it = 0;  // number of stations that follow the first target at the end
   LeadTimes first;                 // to the scenario's first target
 };
 

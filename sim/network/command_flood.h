@@ -1,11 +1,11 @@
 // Forged commands to one station, from an attacker who wants to keep the operator out. Pure; the
 // same seed and times give the same commands.
 //
-// A station must refuse nearly all of them. They are stale, replayed, stamped in the future, meant
-// for another station, of another schema or damaged. Others look fresh, with a new sender each
-// time, but point beyond the limits, or are slews with the largest sequence number. One command in
-// eighteen is fresh and well-formed: without signatures the station obeys it, and its unit swings
-// from side to side.
+// A station must refuse nearly all of these commands. Some are stale, replayed, stamped in the
+// future, meant for another station, of another schema or damaged. Others look fresh, with a new
+// sender each time, but point beyond the limits, or are slews with the largest sequence number.
+// About one command in twenty is fresh and well-formed: without signatures the station obeys it,
+// and its unit swings from side to side.
 #pragma once
 
 #include <cstdint>

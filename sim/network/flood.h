@@ -31,7 +31,7 @@ class Flood {
   std::mt19937_64 random_;
 };
 
-// A message on an unknown channel; each number has its own name, of ordinary length.
+// A message on an unknown channel. Each number gives another channel name of ordinary length.
 Packet unknown_channel(std::uint64_t number);
 
 }  // namespace ols::sim

@@ -6,7 +6,7 @@
 
 namespace ols::sim {
 
-// Changes one byte of a non-empty text: it is lost, flipped in one bit, or duplicated.
+// Damages one byte of a non-empty text: deletes it, flips one of its bits, or duplicates it.
 inline void spoil_one_byte(std::string& text, std::mt19937_64& random) {
   if (text.empty()) return;
   const std::size_t at = std::uniform_int_distribution<std::size_t>(0, text.size() - 1)(random);

@@ -1,5 +1,5 @@
 // One direction of a relay between two buses: loses, duplicates, delays and reorders messages at
-// random. Pure; the seed alone decides what happens to which message, whatever the times.
+// random. Pure. What happens to the n-th message depends only on the seed, not on the times.
 #pragma once
 
 #include <cstddef>

@@ -8,11 +8,11 @@
 namespace ols::sim {
 
 struct OnvifConfig {
-  std::string address = "127.0.0.1";  // of an interface
+  std::string address = "127.0.0.1";  // of the network interface to use
   int port = 8080;                    // 0: any
   std::string user = "admin", password = "ptz-camera";
   std::string serial = "1";
-  std::string stream_uri;  // of its video
+  std::string stream_uri;  // the address of its video, which the camera gives to clients
   int width_px = 1280, height_px = 960;
   double frame_rate_hz = 25.0;
   PtzUnitConfig unit;

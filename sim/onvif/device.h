@@ -42,7 +42,7 @@ class OnvifDevice {
  private:
   struct Operation {
     const char *space, *name;
-    bool open;  // whether it needs no login
+    bool open;  // true: the operation needs no login
     std::string (OnvifDevice::*run)(pugi::xml_node request);
   };
   static const Operation* operation(const XmlName& name);

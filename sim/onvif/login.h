@@ -1,7 +1,7 @@
-// Checks who may command a simulated ONVIF device, by WS-UsernameToken with a digest (Web Services
-// Security UsernameToken Profile 1.0) or by HTTP digest (RFC 7616, MD5). A token's nonce is
-// accepted once; a nonce of HTTP digest is accepted for kNonceAge_s, with a count that must rise.
-// Pure.
+// Checks the logins of clients of a simulated ONVIF device: WS-UsernameToken with a digest (Web
+// Services Security UsernameToken Profile 1.0) or HTTP digest (RFC 7616, MD5). A token's nonce is
+// accepted once. A nonce of HTTP digest is accepted for kNonceAge_s, with a count that must rise
+// from request to request. Pure.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ class Login {
   // `utc_s`: the device's clock.
   bool accepts(const UsernameToken& token, double utc_s);
 
-  // `authorization`, `method`, `target`: of the HTTP request. `now_s`: any clock.
+  // `authorization`, `method`, `target`: of the HTTP request. `now_s`: the time by a clock that
+  // never decreases.
   enum class Verdict { kGood, kWrong, kStale };
   Verdict accepts(std::string_view authorization, const std::string& method,
                   const std::string& target, double now_s);

@@ -1,6 +1,6 @@
-// Converts a PTZ unit's angles and speeds to ONVIF's generic spaces, where values are from -1 to 1.
-// x is positive to the right, y upwards. Positions cover the whole travel, velocities the speeds up
-// to the greatest. Pure.
+// Converts a PTZ unit's angles and speeds to ONVIF's generic spaces, in which values are from -1 to
+// 1. x is positive to the right, y upwards. The positions -1 and 1 are the ends of the travel; the
+// velocities -1 and 1 are the greatest speed in each direction. Pure.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // Simulated time for the clocks of a whole process. A call that waits advances the time step by
-// step; in each step all participants are called. Work in the background takes no time.
+// step; in each step all participants are called. Work in background threads takes no simulated
+// time.
 #pragma once
 
 #include <atomic>
@@ -12,8 +13,8 @@ namespace ols::sim {
 
 class SimulatedTime final : public TimeSource {
  public:
-  // The process uses this clock while the object lives; only one may live at a time.
-  // `start_utime_us`: UTC at the beginning.
+  // While this object lives, it is the clock of the process; there may be only one such object at a
+  // time. `start_utime_us`: UTC at the beginning.
   explicit SimulatedTime(std::int64_t start_utime_us);
   ~SimulatedTime();
   SimulatedTime(const SimulatedTime&) = delete;
@@ -24,7 +25,7 @@ class SimulatedTime final : public TimeSource {
   // not advance.
   void at_each_step(std::function<void(double)> act) { acts_.push_back(std::move(act)); }
 
-  // Advances the time until `over` returns true; returns false if it did not within `most_s`.
+  // Advances the time until `over` returns true. If `most_s` pass before that, returns false.
   bool pass(
       double most_s, const std::function<bool()>& over = [] { return false; });
 

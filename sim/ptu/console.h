@@ -1,9 +1,10 @@
 // The lines that ols-sim-ptu reads from its standard input. Pure.
 //
-//   fault KIND [SECONDS [VALUE]]   as in a scenario, KIND with or without its "ptu-"; without
-//                                  SECONDS until ended
-//   end KIND | end all             ends it
-//   angles [MONOTONIC_S]           true angles now, or at an instant of the last two seconds
+//   fault KIND [SECONDS [VALUE]]   begins a fault; KIND as in a scenario, with or without "ptu-";
+//                                  without SECONDS, the fault lasts until it is ended
+//   end KIND | end all             ends the faults of this kind, or all faults
+//   angles [MONOTONIC_S]           asks for the true angles now, or at an instant of the last two
+//                                  seconds
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// A simulated PTU on a pseudo terminal in real time; ols-station opens it as its serial device. The
-// line stays when a client closes the device: it or another client may open the device again.
+// A simulated PTU on a pseudo terminal in real time; ols-station opens it as its serial device.
+// When a client closes the device, the line remains, and any client may open the device again.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,8 @@
 
 namespace ols::sim {
 
-// `!P` or `!T`, the unit's output at a limit hit. It is no reply and does not end a line.
+// `!P` or `!T`, the unit's output at a limit hit. It is not a reply to a command, and no line end
+// follows it.
 struct PtuToken {
   double time_s = 0.0;
   std::string text;
@@ -41,12 +42,14 @@ class PtuMotion {
   void start(int axis, double target_counts, double time_s);
   void start_slaved(double time_s);
 
-  // Homes, tilt first. An axis that is not homed starts counting at the mechanism's position.
-  // Returns the time at which homing ends.
+  // Homes the selected axes, tilt first. Returns the time at which homing ends. The counts of an
+  // axis that is not homed do not change: after a power failure, they begin with 0 where the
+  // mechanism came to rest.
   double home(bool pan, bool tilt, double time_s);
   double home_together(double time_s);
 
-  // The position in the unit's counts, from the middle that the unit assumes.
+  // The position in the unit's counts. Their zero is where the unit assumes the middle of the
+  // travel.
   double position(int axis, double time_s) const;
   double target(int axis) const;
   double velocity(int axis, double time_s) const;

@@ -18,23 +18,23 @@ struct PtuTapConfig {
 
 class PtuTap : public PtuDevice {
  public:
-  // `link`: path of the station's line, which exists while the unit's device does. Waits for a
-  // missing device. Throws std::system_error if the link cannot be made.
+  // `link`: path of the link that the station opens. The link exists only while the unit's device
+  // exists. Waits for a missing device. Throws std::system_error if the link cannot be made.
   PtuTap(const PtuTapConfig& config, std::uint64_t seed, const std::string& link);
   ~PtuTap() override;
 
   // Faults of the line only: faults of a real unit cannot be simulated.
   void set_faults(const PtuFaults& faults) override;
 
-  // A unit reports its position about thirty times a second. About half of the pictures are drawn
-  // for an instant later than the last report.
+  // Waits for the first report after this instant. A unit reports its position about thirty times a
+  // second, so about half of the pictures are drawn for an instant after the newest report.
   void await(double monotonic_s) override;
 
   // Based on the unit's reports so far.
   PanTilt angles_at(double monotonic_s) override;
 
-  struct Counters {                          // only increase
-    std::uint64_t opened = 0, failures = 0;  // how often the unit's device was opened, and failed
+  struct Counters {                              // only increase
+    std::uint64_t opened = 0, failures = 0;      // openings and failures of the unit's device
     std::uint64_t readings = 0, mismatched = 0;  // as PtuTapWatch::Counters
   };
   Counters counters() const;

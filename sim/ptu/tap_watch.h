@@ -63,7 +63,7 @@ class PtuTapWatch {
   double line_until_s_ = 0.0;  // and when it ended
   double usual_s_ = 1e-3;      // usual latency of the unit's answers
   std::deque<Asked> asked_;    // unanswered queries
-  // Of this burst of commands; used if the burst ends without a mismatch.
+  // Readings from the current burst of commands; used if the burst ends without a mismatch.
   std::vector<Reading> taken_;
   Counters counters_;
 };

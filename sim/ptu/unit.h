@@ -26,14 +26,15 @@ struct PtuUnitConfig {
   int min_speed_counts_s = 31;
   int base_speed_counts_s = 57;
   int acceleration_counts_s2 = 2000;  // factory default; the master raises it
-  int baud = 9600;                    // at power-up; determines the duration of a byte; 0: none
-  double reply_delay_s = 0.001;       // of the controller
-  double reply_jitter_s = 0.0;        // uniform +-; the unit reads its counters during this delay
+  int baud = 9600;  // at power-up; determines the duration of a byte; 0: bytes take no time
+  double reply_delay_s = 0.001;  // of the controller
+  double reply_jitter_s = 0.0;   // added to the delay, uniform +-; the unit reads its counters at a
+                                 // random instant of the delay
   double parameter_set_s = 0.0;  // duration of the commands PA, PB, PU, PL (seconds on real units)
   bool echo = true;              // factory default
   bool verbose = true;           // factory default
   bool home_at_power_up = true;
-  bool homed_before = true;  // if it does not home at power-up: whether it was homed before
+  bool homed_before = true;  // used without homing at power-up: whether it was homed earlier
   double home_speed_rad_s = 0.7;
 };
 

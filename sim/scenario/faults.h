@@ -16,8 +16,8 @@ struct PtzFaults {           // of an ONVIF PTZ
   bool ignores_timeout = false, ignores_stop = false;
   double clock_off_s = 0.0;  // its clock minus UTC
   double lost_share = 0.0;   // share of requests that are lost, with their connections
-  bool reboots = false;  // the edge from false to true: it is not reachable for a while, and then
-                         // at its home position
+  bool reboots = false;      // when it becomes true, the camera reboots: it does not answer for a
+                             // while, and is then at its home position
   bool operator==(const PtzFaults&) const = default;
 };
 
@@ -28,10 +28,10 @@ struct PtuFaults {
   // Share of replies with one error: a lost byte, an inserted byte or a flipped bit.
   double garble_share = 0.0;
   double reply_lost_every_s = 0.0;  // interval at which one reply is lost; 0: never
-  bool echo_on = false;             // the edge from false to true switches echo on, as EE does
-  bool power_cycle = false;         // the edge from false to true switches the unit off and on
-  std::optional<bool> homes_then;   // whether the unit then homes; nullopt: as configured
-  // The edge from 0: pan slips by this, and the unit's counter does not change.
+  bool echo_on = false;             // when it becomes true, the unit's echo is switched on (EE)
+  bool power_cycle = false;         // when it becomes true, the unit is switched off and on
+  std::optional<bool> homes_then;   // whether the unit homes after this; nullopt: as configured
+  // When it changes from 0, the pan axis slips by this angle; the unit's counter does not change.
   double lost_steps_deg = 0.0;
   bool operator==(const PtuFaults&) const = default;
 };
@@ -39,7 +39,7 @@ struct PtuFaults {
 struct CameraFaults {
   bool gone = false;          // the camera gives no answers, as if unplugged
   double packet_loss = 0.0;   // share of image packets
-  bool no_resend = false;     // the camera has no packet resend
+  bool no_resend = false;     // the camera does not resend packets
   double missing_rate = 0.0;  // RTSP: share of the stamped pictures that are not sent
   double clock_off_s = 0.0;   // RTSP: the camera's clock minus UTC
   double clock_drift = 0.0;   // RTSP: drift [s/s] of the camera's clock since power-up

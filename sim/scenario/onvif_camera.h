@@ -8,7 +8,8 @@ namespace ols::sim {
 
 OnvifConfig onvif_config(const Scenario& scenario, const StationScenario& station);
 
-// The address of the video of this camera, or of any other RTSP camera.
+// The address of the video of this station's camera, whether the camera is an ONVIF camera or
+// another RTSP camera.
 std::string stream_address(const StationScenario& station);
 
 }  // namespace ols::sim

@@ -158,7 +158,7 @@ struct InclinometerScenario {
 // The GNSS receiver of every station.
 struct GnssScenario {
   bool on = true;
-  double sd_m = 0.01;  // in each of east and north; up: half as much again
+  double sd_m = 0.01;  // in each of east and north; the sigma of up is 1.5 times this
   Eigen::Vector3d ground_to_antenna_enu_m{0.1, -0.2, 1.9};
   int gpsd_port = 2950;  // of the first station's gpsd; the other stations use the next ports
 };

@@ -1,5 +1,5 @@
-// Reads the landmarks of a scenario, in UTM as in a land register, and how the stations find their
-// headings.
+// Reads two parts of a scenario: the landmarks, in UTM as in a land register, and how the stations
+// find their headings.
 #pragma once
 
 #include <vector>

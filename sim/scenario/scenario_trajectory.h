@@ -10,8 +10,8 @@
 
 namespace ols::sim {
 
-// Where the trajectory is: `origin`, the site's, must have been read already; file names are
-// relative to `folder`.
+// `origin`: the site's origin, which must have been read before the trajectory. `folder`: file
+// names are relative to it.
 struct TrajectoryPlace {
   const Geodetic& origin;
   std::string folder;

@@ -1,6 +1,6 @@
 // A pseudo terminal in place of a serial device: a product process opens the terminal's slave, or a
-// link to it. The line stays when a client closes the device: it or another client may open the
-// device again. Only one thread at a time may use this object.
+// link to it. When a client closes the device, the line remains, and any client may open the device
+// again. Only one thread at a time may use this object.
 #pragma once
 
 #include <memory>

@@ -22,7 +22,8 @@ struct BoardsScenario {
   double level_line_m = 30.0;
   double level_error_rad = 0.0;  // roll of the lines, positive if the right side is low
   double cross_m = 25.0;
-  double cross_error_m = 0.0;  // to the right of the plane perpendicular to the tilt axis
+  // How far the cross is to the right of the vertical plane in which the unit tilts.
+  double cross_error_m = 0.0;
   double near_ruler_m = 20.0, far_ruler_m = 40.0;
   double ruler_error_m = 0.0;  // height of the farther ruler's zero above the nearer ruler's
   // The lens is focused at infinity. The blur of a point [px] is this divided by the point's

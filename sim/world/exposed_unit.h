@@ -22,7 +22,7 @@ class ExposedUnit {
   // order of the exposures.
   void expose(const std::function<PanTilt(double)>& counted, double mid_s, ExposureTruth& exposure);
 
-  // expose() needs the unit's angles up to this long [s] after the end of the exposure.
+  // How long [s] after the end of the exposure expose() still needs the unit's angles.
   double longest_wait_s() const { return offset_s_ > 0.0 ? offset_s_ : 0.0; }
 
  private:

@@ -24,8 +24,8 @@ class Panorama {
   Panorama(const Landscape& landscape, const CameraIntrinsics& camera, const cv::Mat& slopes,
            std::uint64_t seed);
 
-  // Changes the focal length from now on. If it is longer than at construction, the panorama looks
-  // coarser.
+  // Changes the focal length from now on. With a longer focal length than at construction, the
+  // panorama looks coarser.
   void set_camera(const CameraIntrinsics& camera);
   // Draws the background of an image. `R_enu_cam`: the camera's rotation, from camera axes to east,
   // north, up.

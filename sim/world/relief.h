@@ -67,8 +67,8 @@ class Waves {
   Eigen::Matrix<double, kWaves, 1> phase_rad_;
 };
 
-// A random field with this 1-sigma: the errors of an elevation model. Its correlation over a
-// distance is exp(-distance / length_m); it has waves of all lengths.
+// A random field with this 1-sigma: the errors of an elevation model. The correlation of two points
+// is exp(-distance / length_m); the field has waves of all lengths.
 class ErrorField {
  public:
   ErrorField(double sd_m, double length_m, std::uint64_t seed);
@@ -87,9 +87,9 @@ class Relief {
 
   double ground_m(const Eigen::Vector2d& place_m) const;
   double top_m(const Eigen::Vector2d& place_m) const;
-  // The land's highest elevation, as its tangent, seen from a camera in a horizontal direction.
+  // The tangent of the land's highest elevation, seen from a camera in a horizontal direction.
   // `camera_enu`: in the site's frame. `outward`: the direction, a unit vector. `distance_m`: only
-  // land up to this distance counts, and at most up to 10 km.
+  // land up to this distance counts, and never land beyond 10 km.
   double highest_slope(const Eigen::Vector3d& camera_enu, const Eigen::Vector2d& outward,
                        double distance_m) const;
   // Whether the land hides the target from the camera.

@@ -18,9 +18,9 @@ class Trajectory {
   virtual Motion at(double time_s) const = 0;
 };
 
-// centre + amplitude * sin(2 pi t / period + phase), per axis. It is a figure-eight if one
-// horizontal period is half of the other. It is a circle if the periods and amplitudes are equal
-// and the phases are a quarter apart.
+// centre + amplitude * sin(2 pi t / period + phase), per axis. The path is a figure-eight if one
+// horizontal period is half of the other. It is a circle if both horizontal axes have the same
+// period and amplitude, and their phases differ by a quarter of a period.
 struct Lissajous final : Trajectory {
   Eigen::Vector3d centre_enu = Eigen::Vector3d::Zero();
   Eigen::Vector3d amplitude_m = Eigen::Vector3d::Zero();
