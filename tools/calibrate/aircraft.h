@@ -18,7 +18,9 @@ struct AircraftOptions {
   double sd_m = 10.0;
   double duration_s = 600.0;                   // for how long a connection is read
   std::optional<std::int64_t> start_utime_us;  // of the first frame in a Beast file
-  bool heights_are_geometric = false;  // an SBS receiver does not say which heights it sends
+  // For SBS, which does not say what its heights are: a person states that they are above the
+  // ellipsoid.
+  bool heights_are_geometric = false;
   // A person states that this host's clock is right, if no time service confirms it.
   bool clock_is_right = false;
 };

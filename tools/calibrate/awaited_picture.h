@@ -1,6 +1,6 @@
-// A picture that is awaited from the angles to which the unit was sent: how near the unit is to
-// them, which parts of the picture have arrived, and what is missing. Uses no clock and no bus: the
-// caller gives the times [s, monotonic].
+// A picture that is awaited from given angles, to which the unit was sent: how near the unit is to
+// these angles, which parts of the picture have arrived, and what is missing. Uses no clock and no
+// bus: the caller gives the times [s, monotonic].
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,8 @@ class AwaitedPicture {
   std::string missing() const;
 
  private:
-  // The unit has arrived; a quarter of the length of an approach.
+  // [rad] The unit has arrived if it is no farther from the angles than this, a quarter of the
+  // length of an approach.
   static constexpr double kThere_rad = 2e-3;
 
   std::int64_t boot_id_;  // of the requester

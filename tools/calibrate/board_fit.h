@@ -1,6 +1,6 @@
 // Fits a camera in one of the lens models (geometry/lens.h) to pictures of a flat board, with its
-// full covariance. Only for cameras that can focus at the board: for a long lens focused at
-// infinity, it is only a blur.
+// full covariance. Only for cameras that can focus at the board: in the picture of a long lens
+// focused at infinity, the board is only a blur.
 #pragma once
 
 #include <Eigen/Core>

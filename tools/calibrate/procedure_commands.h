@@ -1,5 +1,5 @@
-// ols-calibrate field, workshop, rectify, sweep, check, history, revert: their options, and how the
-// parts of each are put together.
+// The subcommands field, workshop, rectify, sweep, check, history and revert of ols-calibrate:
+// their options, and how each is put together from its parts.
 #pragma once
 
 #include <CLI/CLI.hpp>

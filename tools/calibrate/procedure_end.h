@@ -12,7 +12,7 @@ namespace ols::calibration {
 int finish(const Procedure& procedure, Outcome outcome, const StationFiles& station,
            StationLink& link, CalibrationStore& store, Person& person);
 // Ends a procedure after an error: the old calibration stays in use, and the observations are kept.
-// If the error came late, their folder may already have its final name.
+// If the error came late, the folder of the observations may already have its final name.
 [[noreturn]] void fail(const std::exception& error, const ProcedureSession& session,
                        CalibrationStore& store);
 

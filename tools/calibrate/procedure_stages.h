@@ -57,8 +57,8 @@ CaseOptions files_of(const ProcedureOptions& options, const StationFiles& statio
 Procedure make_procedure(const ProcedureOptions& options, const StationFiles& station,
                          ProcedureSession& session);
 
-// Takes the views of the calibration in use again. Returns the exit status. 0: nothing has moved;
-// 1: something has moved, or this could not be determined.
+// Takes the views stored with the calibration in use once more, and compares them. Returns the exit
+// status. 0: nothing has moved; 1: something has moved, or this could not be determined.
 int run_check(const ProcedureOptions& options, const StationFiles& station,
               CalibrationStore& store);
 

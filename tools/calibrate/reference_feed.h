@@ -1,6 +1,6 @@
 // The references of a running procedure. A program, such as a drone's ground station, may append to
-// their file during the procedure. The procedure uses a copy of the file in its own folder, and
-// updates the copy.
+// the file of the references during the procedure. The procedure uses a copy of the file in its own
+// folder, and updates the copy.
 #pragma once
 
 #include <filesystem>

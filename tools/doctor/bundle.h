@@ -1,5 +1,5 @@
-// Collects everything that a remote helper needs to know about this host in one file, without
-// secrets.
+// Collects in one file, without secrets, everything that a remote helper needs to know about this
+// host.
 #pragma once
 
 #include <map>

@@ -5,11 +5,11 @@
 
 namespace ols::doctor {
 
-// Returns the text with "[removed]" in place of possible secrets. These are the values after the
-// name of a key, password or similar, to the end of the line (a quoted or bracketed value: of its
-// last line); private keys in PEM; long hexadecimal numbers; stored passwords; user names and
-// passwords in URLs. When in doubt, the function removes the text. Lines longer than kLongestLine
-// are cut.
+// Returns the text with "[removed]" in place of possible secrets: private keys in PEM, long
+// hexadecimal numbers, stored passwords, user names and passwords in URLs, and the values after the
+// name of a key, password or similar. Such a value is removed to the end of its line; a quoted or
+// bracketed value, to the end of its last line. When in doubt, the function removes the text. Lines
+// longer than kLongestLine are cut.
 std::string without_secrets(const std::string& text);
 inline constexpr std::size_t kLongestLine = 2000;
 

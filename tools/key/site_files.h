@@ -16,8 +16,8 @@ struct SiteFiles {
   std::string root = "root.key", list = "trust.toml";
 };
 
-// All functions throw ConfigError, std::system_error or std::invalid_argument, and then write
-// nothing.
+// If one of these functions throws (ConfigError, std::system_error or std::invalid_argument), it
+// has written nothing.
 
 // Creates the root key and an empty list; neither may exist. Returns the list.
 trust::TrustList make_site(const SiteFiles& files, const std::string& site);
@@ -42,8 +42,9 @@ std::string copy_list(const SiteFiles& files);
 // Restores the list from the copy if it is missing. Returns whether it was missing.
 bool restore_list(const SiteFiles& files);
 
-// Signs the settings in a person's file `wanted`, and writes them to `path`. Their number is the
-// next one after that of the existing settings and after `above`. Returns the number.
+// Signs the settings in a person's file `wanted`, and writes them to `path`. Their number is one
+// more than the greater of two numbers: that of the existing settings, and `above`. Returns the
+// number.
 std::int64_t sign_settings_in(const SiteFiles& files, const std::string& wanted,
                               const std::string& path, std::int64_t above,
                               const trust::SettingsCheck& check);

@@ -19,7 +19,7 @@ Bounds bounds_around(double latitude_deg, double longitude_deg, double radius_km
 // the bounds. The bounds of a site near longitude 180 reach beyond 180.
 double turns_deg(const Bounds& bounds, double longitude_deg);
 
-// The heights of one file within the bounds, with the file's own zero; NaN: not known.
+// The heights of one file within the bounds, counted from the file's own zero; NaN: not known.
 struct Raster {
   std::string name;
   double north_deg = 0.0, west_deg = 0.0;  // position of the first height

@@ -11,8 +11,8 @@ struct ImportOptions {
   double latitude_deg = 0.0, longitude_deg = 0.0;  // of the site
   double radius_km = 40.0;
   std::vector<std::string> elevation, buildings, woods;  // paths
-  // The zero of the models' heights: a geoid grid of PROJ, or "ellipsoid". Empty: as the kind of
-  // file implies, if it does.
+  // The zero of the models' heights: a geoid grid of PROJ, or "ellipsoid". Empty: the zero that the
+  // kind of file implies; a file that implies none is refused.
   std::string heights;
   double sd_m = 4.0;  // 1-sigma of the models' heights
   std::string licence;

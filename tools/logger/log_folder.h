@@ -21,9 +21,9 @@ class LogFolder {
   // Lists the logs. Creates a missing folder. Throws std::system_error if the path is not a folder
   // or is not writable.
   void survey();
-  // Removes the oldest logs until `headroom_bytes` more fit into the quota, and onto the disk
-  // without its reserve. Never removes the file `keep`. Throws std::system_error if a file cannot
-  // be removed.
+  // Removes the oldest logs until `headroom_bytes` more fit into the quota, and also onto the disk
+  // without using its reserve. Never removes the file `keep`. Throws std::system_error if a file
+  // cannot be removed.
   void remove_oldest(double quota_bytes, double reserve_bytes, double headroom_bytes,
                      const std::string& keep);
 

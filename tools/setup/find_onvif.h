@@ -11,7 +11,7 @@
 
 namespace ols::setup {
 
-// Finds the cameras; prints the answers that it does not use.
+// Finds the cameras. Prints the answers that it cannot use.
 std::vector<onvif::FoundCamera> find_onvif();
 
 // A camera in words, such as "PTZ 4 at http://10.0.0.5/onvif/device_service".

@@ -1,6 +1,5 @@
-// Files that a restore must not replace by older ones. These are the site's trust list and
-// settings, because an older list trusts keys that have since been revoked, and the marks against
-// replays.
+// Files that a restore must not replace by older ones: the site's trust list and settings, and the
+// marks against replays. An older list would trust keys that have since been revoked.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Makes an ONVIF camera the devices of a station: its stream is the camera, its motors are the
-// mount. Pure.
+// Makes the devices of a station from an ONVIF camera: the camera's stream becomes the station's
+// camera, its motors become the mount. Pure.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ struct OnvifLogin {
 
 // Adds the values that the answers under [station] lack. `url`: of the device service. If the
 // camera does not report degrees, the scales of its angles are typical values until they are
-// measured. Throws std::runtime_error if the answers want its motion and it cannot move.
+// measured. Throws std::runtime_error if the answers request the camera as a mount, but it cannot
+// move.
 void add_onvif(Values& values, const std::string& url, const onvif::Offer::Stream& stream,
                const OnvifLogin& login);
 

@@ -12,8 +12,8 @@ struct PlannedFile {
   std::string path;  // absolute
   std::string text;
   bool is_toml = true;
-  // A line of the file that another package installs. While the file contains this line, nobody has
-  // configured it, and ols-setup may replace it. Empty: no package installs the file.
+  // A line of the file as another package installs it. While the file contains this line, nobody
+  // has configured it, and ols-setup may replace it. Empty: no package installs the file.
   std::string unchosen{};
 };
 
