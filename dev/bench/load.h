@@ -13,7 +13,7 @@ namespace ols::bench {
 // Calls `act` with 0, 1, … at a constant rate. If this process was suspended, the calls that became
 // due in the meantime follow immediately.
 void at_rate(double rate_hz, double seconds, const auto& act) {
-  // Short: only a few messages of a flood become due.
+  // A short nap: only a few messages of a flood become due during it.
   constexpr timespec kNap{0, 200'000};
   const double begin_s = clock_monotonic_s();
   const auto total = static_cast<std::size_t>(std::llround(rate_hz * seconds));

@@ -25,11 +25,11 @@ struct WorldConfig {
   double bias_sd_rad = 0.0;     // of each station's bias, a rotation about east, north and up
   double heading_sd_rad = 0.0;  // of an additional rotation about up
   double bias_time_s = 1e12;    // correlation time of both; with the default they are constant
-  // Constant error of each station's stated position, in each of east, north, up.
+  // 1-sigma of the constant error of each station's stated position, in each of east, north, up.
   double place_sd_m = 0.0;
   bool bias_stated = true;       // whether the stations state these sigmas with their bearings
   double missed = 0.0;           // share of a station's detections that are missing
-  double false_per_frame = 0.0;  // mean number; Poisson distribution
+  double false_per_frame = 0.0;  // mean number of false bearings; Poisson distribution
   double view_rad = 0.5;         // half the width of the field with false bearings
   // Whether the stations have detectors. Bearings then belong to tracklets, which also have the
   // size and rate of the object. False tracklets are objects that only one station sees; each lasts
@@ -55,8 +55,8 @@ inline constexpr double kPathHz = 1000.0;
 const LocalFrame& site();
 PathPoint at(const Path& path, double time_s);
 
-// A path with constant velocity, disturbed by white noise of the acceleration. `disturbance`: its
-// spectral density [m/s^2 over root Hz].
+// A path with constant velocity, disturbed by white noise of the acceleration. `disturbance`: the
+// square root of its spectral density [m/s^2 per root Hz].
 Path cruising(const PathPoint& start, double disturbance, double duration_s,
               std::mt19937_64& random);
 // The path of a drone that turns, brakes and climbs: piecewise constant turns and accelerations of

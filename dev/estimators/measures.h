@@ -14,7 +14,7 @@ namespace ols::bench {
 void least_squares_bound(int runs, Limits& limits);
 
 // Compares the filter with the posterior bound, for constant and for slowly changing biases. The
-// filter has its usual configuration, and one for biases that may be constant for hours.
+// filter runs with its usual configuration, and with one for biases that may be constant for hours.
 void filter_bounds(int runs, Limits& limits);
 
 // Compares the filter with the paper's estimator on a drone that manoeuvres at 200 to 800 m, with
@@ -34,16 +34,15 @@ void traffic(int runs, Limits& limits);
 void handover(int runs, Limits& limits);
 
 // Compares the filter for recordings and its smoother with least squares at the same instants, on
-// meteors, because no recording of a drone is like that of a meteor. The meteors last 0.3 to 5 s,
-// fly at 10 to 70 km/s and are 80 to 200 km away. They are seen by 2 to 6 cameras that state only
-// their noise.
+// recordings of meteors, which move unlike any drone. The meteors last 0.3 to 5 s, fly at 10 to 70
+// km/s and are 80 to 200 km away. They are seen by 2 to 6 cameras that state only their noise.
 void meteors(int runs, Limits& limits);
 
 // Compares the filter for recordings and its smoother with least squares at the same instants, with
-// stations that have and state no errors but noise. Every allowance of the filter for other errors
-// then only costs accuracy. A drone manoeuvres for 12 s; 2, 3, 4, 12 or 100 stations are on a
-// circle with a radius of 250 m, at 15 Hz. Also prints, without a limit, the results for a drone
-// that hardly manoeuvres, at 30 Hz.
+// stations whose only error is noise, and that state no other error. Every allowance that the
+// filter makes for other errors then only costs accuracy. A drone manoeuvres for 12 s; 2, 3, 4, 12
+// or 100 stations are on a circle with a radius of 250 m, at 15 Hz. Also prints, without a limit,
+// the results for a drone that hardly manoeuvres, at 30 Hz.
 void noise_only(int runs, Limits& limits);
 
 // Measures which classes the classifier assigns to simulated objects of known class after ten
