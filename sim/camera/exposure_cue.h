@@ -22,7 +22,7 @@ class ExposureCue {
   void client_spoke();
   void end();
 
-  // This and wait_for_client() return true if end() has been called.
+  // wait_until() and wait_for_client() return true if end() has been called.
   bool wait_until(Clock::time_point time);
   // Waits until a client sends a command, at most `longest`. Discards earlier triggers.
   bool wait_for_client(Clock::duration longest);

@@ -1,5 +1,6 @@
-// Simulated GPIO lines on a Unix socket, with the protocol of edge/gpio/gpio_lines.h. Inputs of the
-// station: emergency stop and re-arm button. Its outputs: status LED and camera trigger.
+// Simulated GPIO lines on a Unix socket, with the protocol of edge/gpio/gpio_lines.h. The
+// station's inputs are emergency stop and re-arm button; its outputs are status LED and camera
+// trigger.
 // Thread-safe.
 #pragma once
 

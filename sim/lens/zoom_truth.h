@@ -28,7 +28,7 @@ std::string zoom_problem(const ZoomScenario& zoom, bool overview);
 
 class ZoomTruth {
  public:
-  // `widest`: the camera at zoom position 0. `ratio`: the longest focal length over the widest.
+  // `widest`: the camera at zoom position 0. `ratio`: longest over shortest focal length.
   ZoomTruth(const CameraIntrinsics& widest, double ratio) : widest_(widest), ratio_(ratio) {}
 
   CameraIntrinsics camera_at(double position) const;

@@ -15,7 +15,7 @@
 
 namespace ols::sim {
 
-// All random numbers of one station, in the order of their use.
+// The source of all random numbers of one station.
 struct LockstepNoise {
   explicit LockstepNoise(std::uint64_t seed) : generator(seed) {}
   double uniform() { return std::uniform_real_distribution<double>()(generator); }

@@ -1,6 +1,6 @@
 // The simulated PTU's command interpreter: one command in, one answer out, and the motion of both
-// axes. It knows nothing of the serial line; ptu_unit.cpp passes it each command when the command
-// is complete.
+// axes. It knows nothing of the serial line; sim/ptu/unit.cpp passes it each command as soon as
+// the command is complete.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Those settings of the simulated PTU that its command DS saves.
+// The settings that the simulated PTU saves by its command DS.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ struct Hill {  // a Gaussian
   double heading_rad = 0.0;
 };
 
-struct House {  // with a level roof; heights are from the lowest ground at its corners
+struct House {  // with a level roof; heights count from the lowest ground at its corners
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
   Eigen::Vector3d size_m{12.0, 8.0, 6.0};  // along the heading, across it, height
   double heading_rad = 0.0;
@@ -38,10 +38,10 @@ struct Tree {  // a cylinder; the product's model has no trees
 struct LandModelScenario {
   double reach_m = 1500.0;    // of the grid, in each direction from the origin
   double spacing_m = 10.0;    // of the grid's heights
-  double sd_m = 1.0;          // 1-sigma of the heights' errors;
-  double length_m = 80.0;     // the errors are correlated over about this distance
-  double house_sd_m = 0.5;    // of the houses' heights
-  double outline_sd_m = 1.0;  // of the houses' positions, each axis
+  double sd_m = 1.0;          // 1-sigma of the errors of the heights
+  double length_m = 80.0;     // these errors are correlated over about this distance
+  double house_sd_m = 0.5;    // 1-sigma of the houses' heights
+  double outline_sd_m = 1.0;  // 1-sigma of the houses' positions, each axis
 };
 
 struct ReliefScenario {

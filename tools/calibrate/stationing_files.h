@@ -44,7 +44,7 @@ StationingCase read_stationing(const StationingOptions& options);
 Stationing find_station(const StationingCase& before, double highest_rad);
 
 // Writes the tables of the station's configuration that the stationing has determined. Comments in
-// them give the results of its tests, and what the landmarks determine.
+// these tables give the results of the stationing's tests, and what the landmarks determine.
 void write_stationing(std::ostream& out, const StationingCase& before, const Stationing& found,
                       bool with_position);
 

@@ -1,6 +1,6 @@
-// ols-bridge's status as Prometheus metrics. The bridge has no key for the bus, so a status there
-// could not be verified. The metrics therefore come from the bridge's status file on this host.
-// Pure.
+// ols-bridge's status as Prometheus metrics. The bridge has no key for the bus, so a status
+// on the bus could not be verified. The metrics therefore come from the bridge's status file on
+// this host. Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>

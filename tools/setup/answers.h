@@ -3,7 +3,7 @@
 //   role = "station"                # or "centre"
 //   interface = "eth0"              # the interface to the other hosts; left out: none
 //   invitation = "…"                # only for a station: printed by ols-setup at the centre
-//   neighbours = ["10.0.0.1"]       # other hosts of the site, which give the time without GNSS
+//   neighbours = ["10.0.0.1"]       # other hosts of the site; they give the time if GNSS does not
 //   serial = ["/dev/ttyUSB0"]       # where to search for devices; left out: all serial adapters
 //   [station]                       # keys of its configuration file (docs/configuration.md)
 //   id = "alfa"
