@@ -22,8 +22,8 @@ struct WorldConfig {
       {};  // where the cameras point, for false bearings; empty: 80 m above the origin
   double rate_hz = 30.0;  // frame rate of each station; the stations' frames are evenly staggered
   double noise_rad = 3e-4;
-  double bias_sd_rad = 0.0;     // of each station's bias, a rotation about east, north and up
-  double heading_sd_rad = 0.0;  // of an additional rotation about up
+  double bias_sd_rad = 0.0;     // 1-sigma of each station's bias, about east, north and up
+  double heading_sd_rad = 0.0;  // 1-sigma of an additional rotation about up
   double bias_time_s = 1e12;    // correlation time of both; with the default they are constant
   // 1-sigma of the constant error of each station's stated position, in each of east, north, up.
   double place_sd_m = 0.0;

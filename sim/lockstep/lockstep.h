@@ -24,8 +24,8 @@ namespace ols::sim {
 struct Fix {
   std::int64_t utime_us = 0;
   std::int64_t target_id = 0;
-  double time_s = 0.0;       // of the scenario
-  double published_s = 0.0;  // of the scenario
+  double time_s = 0.0;       // of the epoch, since the scenario's start
+  double published_s = 0.0;  // of the publication, likewise
   Geodetic position;
   Eigen::Vector3d error_enu_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();

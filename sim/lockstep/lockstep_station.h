@@ -33,7 +33,7 @@ struct FrameNote {
   double belief = 0.0;
   ViewTruth view;
   bool inside_third = false;  // the target is inside the central third, horizontally and vertically
-  std::optional<Eigen::Vector2d> error_px;  // of the measured pixel, while tracking
+  std::optional<Eigen::Vector2d> error_px;  // of the measured pixel; only while tracking
   std::optional<cv::Rect2d> box;            // [px] the tracker's box
   std::vector<Alarm> alarms;                // of the station's own logic
 };

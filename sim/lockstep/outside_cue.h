@@ -11,7 +11,7 @@ namespace ols::sim {
 struct OutsideCueConfig {
   double elapsed_s = 0.0;        // the scenario starts this long after the beginning of the flight
   double given_s = 2.0;          // when the operator allows the cue; it exists from the start
-  double sd_m = 20.0;            // of the cue's positions, stated and true, each axis
+  double sd_m = 20.0;            // true and stated 1-sigma of the cue's positions, each axis
   bool with_velocity = true;     // false: the source states only the position
   double velocity_sd_m_s = 1.0;  // 1-sigma error of the stated velocity, each axis
   double report_s = 1.0;         // interval of the source's reports

@@ -19,8 +19,8 @@ struct PtzUnitConfig {
   double max_speed_rad_s = radians(60.0);  // of each axis
   double acceleration_rad_s2 = radians(120.0);
   double command_delay_s = 0.08;  // from a command's arrival to the motion
-  // 1-sigma of the position error after a move to a position. The reported positions do not show
-  // it.
+  // 1-sigma of the position error after a move to a position. The reported positions do not
+  // contain this error.
   double repeatability_rad = 0.0;
   double boot_s = 20.0;  // time after power-up in which the unit gives no answers
 };

@@ -59,7 +59,7 @@ class SimulatedStation {
   station::StationSettings settings_;
   FaultyPtuUnit unit_;
   ExposedUnit exposed_;
-  std::optional<LensUnit> lens_unit_;  // of a zoom lens
+  std::optional<LensUnit> lens_unit_;  // nullopt: the station has no zoom lens
   std::unique_ptr<Renderer> renderer_;
   StationFaults faults_;
   std::int64_t exposures_ = 0, boots_ = 0, steps_ = 0;

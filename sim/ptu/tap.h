@@ -13,7 +13,7 @@ namespace ols::sim {
 struct PtuTapConfig {
   std::string device;  // of the unit, for example /dev/ttyUSB0
   int baud = 9600;     // until the station has opened the line; then the station's rate applies
-  double step_rad = 5.61e-5;  // per count, until the unit has reported it
+  double step_rad = 5.61e-5;  // size of a count, until the unit has reported it
 };
 
 class PtuTap : public PtuDevice {

@@ -19,7 +19,7 @@ enum class PtuModel { kD46, kE46 };
 struct PtuUnitConfig {
   PtuModel model = PtuModel::kD46;
   std::string firmware;                // empty: 2.14.0, or 3.3.0 for the E46
-  double resolution_arcsec = 11.5714;  // per count, both axes (D46-70, eighth step)
+  double resolution_arcsec = 11.5714;  // size of a count, both axes (D46-70, eighth step)
   int pan_min_counts = -49467, pan_max_counts = 49467;   // +-159 deg
   int tilt_min_counts = -14622, tilt_max_counts = 9644;  // -47..+31 deg
   int max_speed_counts_s = 18700;                        // about 60 deg/s
@@ -27,7 +27,7 @@ struct PtuUnitConfig {
   int base_speed_counts_s = 57;
   int acceleration_counts_s2 = 2000;  // factory default; the master raises it
   int baud = 9600;  // at power-up; determines the duration of a byte; 0: bytes take no time
-  double reply_delay_s = 0.001;  // of the controller
+  double reply_delay_s = 0.001;  // from a command to its answer
   double reply_jitter_s = 0.0;   // added to the delay, uniform +-; the unit reads its counters at a
                                  // random instant of the delay
   double parameter_set_s = 0.0;  // duration of the commands PA, PB, PU, PL (seconds on real units)

@@ -16,7 +16,7 @@
 namespace ols::sim {
 
 struct TelescopeConfig {
-  std::string address = "127.0.0.1";  // of an interface
+  std::string address = "127.0.0.1";  // of the network interface to use
   int port = 7624;                    // 0: any
   std::string device = "OLS Telescope";
   indi::Observer observer;

@@ -3,8 +3,8 @@
 // ever overwritten; a single rename of the link returns to an earlier one.
 //
 //   FOLDER/current -> 4711            switched by one rename
-//   FOLDER/instrument -> 4712         the instrument with which new setups begin, accepted without
-//                                     a setup; if there is no such link, new setups begin with the
+//   FOLDER/instrument -> 4712         an instrument that was accepted without a setup; new setups
+//                                     begin with it. Without this link, they begin with the
 //                                     instrument of the calibration in use
 //   FOLDER/4711/                      instrument.toml, setup.toml, covariance.csv, reports; raw
 //                                     observations, references, frames, to repeat the computation
