@@ -9,7 +9,8 @@
 namespace ols::bench {
 
 // The row [px] of the skyline in each strip of the picture that was drawn last. It is the mean over
-// the strip's columns, because trees are narrower than a strip. It may be outside of the picture.
+// the strip's columns, because trees are narrower than a strip. A row may be outside of the
+// picture.
 inline std::vector<double> drawn_rows(const sim::Panorama& panorama) {
   const std::vector<float>& columns = panorama.ridge_rows_px();
   std::vector<double> rows;

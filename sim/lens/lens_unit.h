@@ -1,6 +1,6 @@
 // A simulated zoom lens that speaks VISCA. It is written from docs/overview.md, without the
-// product's codec, so that no mistake can be in both. Pure: bytes and time in, bytes and true
-// positions out. sim/lens/lens_line.* puts it on a pty.
+// product's codec, so that codec and simulation cannot share a mistake. Pure: bytes and time in,
+// bytes and true positions out. sim/lens/lens_line.* puts it on a pty.
 #pragma once
 
 #include <cstdint>

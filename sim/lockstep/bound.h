@@ -1,7 +1,7 @@
-// The Cramer-Rao bound of a target's position at one instant, from one exposure of each station. It
-// is computed with the true geometry, the scenario's error sigmas and the actual pixel noise. The
-// effect of each error on the pixel is a difference quotient of the projection. No covariance of
-// the product is used: this bound tests geometry/precision.h.
+// The Cramer-Rao bound of a target's position at one instant, from one exposure of each station.
+// The bound is computed with the true geometry, the scenario's error sigmas and the actual pixel
+// noise. The effect of each error on the pixel is a difference quotient of the projection. No
+// covariance of the product is used: this bound tests geometry/precision.h.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// A simulated ONVIF camera and the product's driver of it (mount::Drive), in simulated time. They
-// exchange real SOAP texts; each text takes some time to arrive. Pure.
+// A simulated ONVIF camera and the product's driver of it (mount::Drive), in simulated time. Camera
+// and driver exchange real SOAP texts; each text takes some time to arrive. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // A DPG2 inclinometer on a pseudo terminal in real time; ols-station opens it as its serial device.
-// It streams its readings from power-up on. The command 's' stops the stream, 'S' starts it, 'R'
-// requests one reading, and 'V' requests the version.
+// The inclinometer streams its readings from power-up on. The command 's' stops the stream, 'S'
+// starts it, 'R' requests one reading, and 'V' requests the version.
 #pragma once
 
 #include <cstdint>

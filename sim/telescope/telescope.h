@@ -2,9 +2,9 @@
 // elements out. A PtzUnit simulates its axes: pan is minus the hour angle, tilt is the declination.
 // Pure.
 //
-// It behaves like INDI's own simulator. An abort ends a slew and leaves tracking on. While the
-// mount tracks, a rate in the opposite direction is refused. A new rate has no effect while the
-// mount does not track.
+// The simulated mount behaves like INDI's own simulator. An abort ends a slew and leaves tracking
+// on. While the mount tracks, a rate in the opposite direction is refused. A new rate has no effect
+// while the mount does not track.
 #pragma once
 
 #include <cstdint>

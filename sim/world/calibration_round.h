@@ -1,5 +1,5 @@
 // The observations for a station's calibration in the simulated world: frames of stars, and
-// surveyed landmarks, one of which has moved. They have the format of the input files of
+// surveyed landmarks, one of which has moved. The texts have the format of the input files of
 // `ols-calibrate adjust`.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The model of the simulated land that the product may use. It is coarser than the truth and has
-// errors. It has no trees, and only houses that are mapped. Pure.
+// The product's model of the simulated land. It is coarser than the true land and has errors. It
+// has no trees, and only those houses that are mapped. Pure.
 #pragma once
 
 #include <cstdint>

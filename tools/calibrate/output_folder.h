@@ -14,8 +14,8 @@ struct OutputFile {
   std::string text;
 };
 
-// While this object lives, SIGINT, SIGTERM and SIGHUP are delayed, in every thread. It protects the
-// writing of the results, which are only a few kilobytes.
+// While this object lives, SIGINT, SIGTERM and SIGHUP are delayed, in every thread. This protects
+// the writing of the results, which are only a few kilobytes.
 class SignalsWait {
  public:
   static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};

@@ -46,8 +46,8 @@ inline py::tuple reduce_fields(const py::object& self) {
 }
 
 // Makes a Python class of a plain struct. Its objects are constructed from keywords; fields that
-// are not given keep their defaults, and an unknown field is a TypeError. They can be copied by
-// copy.copy() and copy.deepcopy(), and pickled.
+// are not given keep their defaults, and an unknown field is a TypeError. The objects can be copied
+// by copy.copy() and copy.deepcopy(), and pickled.
 template <typename T>
 py::class_<T> data_class(py::module_& m, const char* name, const char* doc) {
   py::class_<T> bound(m, name, doc);
