@@ -61,7 +61,8 @@ class OwnerStore {
   NatsLink& link_;
   const std::string domain_;
   const Ears ears_;
-  __jsCtx* js_ = nullptr;  // used only by worker_, until watcher_ has begun
+  // worker_ sets both before it starts watcher_. From then on, both threads only read them.
+  __jsCtx* js_ = nullptr;
   __kvStore* store_ = nullptr;
   mutable std::mutex mutex_;
   std::condition_variable asked_;

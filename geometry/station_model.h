@@ -7,11 +7,11 @@
 //           + W_c cos(m theta) + W_s sin(m theta) + b d / 2
 //
 // n: counts at the exposure. q: 2 pi divided by the counts per turn (exact, unlike the rounded
-// resolution that a unit reports). s: the sign of the axis. k = 1, 2: eccentricity of the worm
-// wheel and of the axis. m: number of teeth of the worm wheel; the worm makes one turn for each
-// tooth. b: backlash. d = 1 or -1: sign of the last motion in counts. In the cosines and sines, s q
-// n + zero is used for theta. There is no error of scale, because the worm wheel is a closed
-// circle.
+// resolution that a unit reports). s: the sign of the axis. The sum over k is the eccentricity
+// of the worm wheel and the axis together: k = 1 and 2 for pan, 1 for tilt. m: number of teeth of
+// the worm wheel; the worm makes one turn for each tooth. b: backlash. d = 1 or -1: sign of the
+// last motion in counts. In the cosines and sines, s q n + zero is used for theta. There is no
+// error of scale, because the worm wheel is a closed circle.
 #pragma once
 
 #include <Eigen/Core>

@@ -15,7 +15,9 @@ enum class RestoreResult {
   kNoFile,      // no file is configured: nothing is persisted
   kMissing,     // the file or its folder does not exist
   kUnreadable,  // the file cannot be read, or holds no permitted word
-  kUnwritable,  // the file holds the first word but cannot be written, so the word may be outdated
+  // The file holds the most permissive word but cannot be written: a later, stricter word may have
+  // been lost.
+  kUnwritable,
 };
 
 class PersistedWord {

@@ -40,7 +40,8 @@ class TrackIdentities {
   void forget_deleted(std::int64_t now_us, double after_s);
   // Called when the station's local track ids have new meanings.
   void forget(const std::string& station) { local_.forget(station); }
-  // Forgets everything except the identities in use: these are never assigned again.
+  // Forgets all deleted and local tracks. The count of identities continues, so that none is ever
+  // assigned twice.
   void clear();
   const LocalTracks& local() const { return local_; }
 

@@ -13,8 +13,9 @@ class FrameNumbers {
   };
 
   // Takes a frame's number from the camera. It has 16 bits and runs from 1 to 65535 (GigE Vision
-  // 1.x, which skips 0), or it has 64 bits. If it does not increase, the camera has restarted its
-  // numbering.
+  // 1.x, which skips 0), or it has 64 bits. A 16-bit number has increased if it is up to 32767
+  // steps ahead, beyond 65535 too. A number that has not increased means that the camera has
+  // restarted its numbering.
   Step next(std::uint64_t id);
 
   // Notes that the camera was reopened. Numbers that are missing before its next frame then do not

@@ -42,9 +42,9 @@ class ColourLikeness {
   // Histograms of the target and of its surroundings; each sums to 1.
   std::vector<float> target_, around_;
   std::vector<float> probability_;  // for each colour: that its pixels belong to the target
-  // The mean of this probability over a box: its average and variance over the boxes away from the
-  // target, and its excess at the target.
-  double level_ = 0.0, variance_ = 0.0, above_ = 0.0;
+  double level_ = 0.0;     // mean probability in a box, averaged over boxes away from the target
+  double variance_ = 0.0;  // variance of the mean probability from box to box
+  double above_ = 0.0;     // mean probability in the target's box, minus level_
 };
 
 }  // namespace ols::tracker

@@ -28,7 +28,7 @@ struct UnattendedRun {
   // Number of publications that call something else a drone; each would raise an alarm.
   int drones_that_are_none = 0;
   std::size_t stations_on_it = 0;  // number of stations that follow the first target at the end
-  LeadTimes first;                 // to the scenario's first target
+  LeadTimes first;                 // to the scenario's first target, from the start of the scenario
 };
 
 // Runs a scenario in which nobody designates. Targets of these classes lead stations at once,
