@@ -2,7 +2,7 @@
 # What the time of an RTSP camera's pictures is wrong by, how old they are and what they cost a core, in a network
 # namespace of its own.
 #   rtsp_stamps.sh FOLDER_OF_PROGRAMS [--relay MEDIAMTX [--replace-time]] [--cameras N] [OPTION...]
-# --relay: through this relay, a program or "published" or "corrected" of tools/build-mediamtx. It passes the camera's
+# --relay: through this mediamtx, a program or "published" or "corrected" of tools/build-mediamtx. It passes the camera's
 # time on, or with --replace-time gives its own, as it does if nobody configures it.
 # --cameras: so many, measured together. OPTION: of ols-bench-rtsp, such as --seconds 60.
 set -euo pipefail
@@ -20,10 +20,17 @@ while [ $# -gt 0 ]; do
   shift
 done
 case $relay in published | corrected) relay=build/mediamtx/$relay ;; esac
+[ -z "$relay" ] || [ -x "$relay" ] || { echo "--relay: there is no program $relay" >&2; exit 2; }
 
 started=()
-trap 'kill "${started[@]}"; wait' EXIT
-answers() { until (: </dev/tcp/127.0.0.1/"$1") 2>/dev/null; do read -rt 0.1 <> <(:) || true; done; }
+trap 'kill "${started[@]}" 2>/dev/null; wait' EXIT
+# Until the program that was started last listens at this port.
+answers() {
+  until (: </dev/tcp/127.0.0.1/"$1") 2>/dev/null; do
+    kill -0 "${started[-1]}" 2>/dev/null || { echo "nothing listens at port $1: its program has ended" >&2; exit 2; }
+    read -rt 0.1 <> <(:) || true
+  done
+}
 
 ip link set lo up
 "$bench" --port 8600 --cameras "$cameras" "${served[@]}" >/dev/null &
