@@ -46,6 +46,7 @@ STATIONS = [
 REAL_TIME = [
     "test_two_ip_cameras.py",
     "test_onvif_station.py",
+    "test_ipycam.py",
     "test_attacks.py",
     "test_calibrate_field.py",
     "test_faults.py",

@@ -17,6 +17,7 @@
 #include "sim/gpio/gpio_socket.h"
 #include "sim/lens/lens_line.h"
 #include "sim/onvif/server.h"
+#include "sim/ptu/external_mount.h"
 #include "sim/ptu/line.h"
 #include "sim/ptu/tap.h"
 #include "sim/scenario/onvif_camera.h"
@@ -92,6 +93,7 @@ std::unique_ptr<PtuDevice> LiveSite::connect_ptu(std::size_t station, const std:
   if (scenario.mount == MountModel::kOnvif)
     return connect_onvif(station, std::filesystem::path(link).parent_path());
   if (scenario.mount == MountModel::kIndi) return connect_telescope(station);
+  if (scenario.mount == MountModel::kExternal) return connect_external(station);
   const std::string& real_device = scenario.ptu_device;
   const std::uint64_t seed = derived_seed(world_.seed(), 4000 + station);
   if (real_device.empty()) return std::make_unique<PtuLine>(world_.ptu_unit_config(), seed, link);
@@ -117,6 +119,23 @@ std::unique_ptr<PtuDevice> LiveSite::connect_telescope(std::size_t station) {
   config.address = scenario.stations[station].camera_address;
   config.observer = {scenario.origin.latitude_rad, scenario.origin.longitude_rad};
   return std::make_unique<TelescopeServer>(config, derived_seed(world_.seed(), 7500 + station));
+}
+
+std::unique_ptr<PtuDevice> LiveSite::connect_external(std::size_t station) {
+  auto mount = std::make_unique<ExternalMount>();
+  // The bus is handled only while this site and so the mount exist.
+  bus_.subscribe(
+      "OLS_SIM_ANGLES_" + world_.scenario().stations[station].id,
+      [this, mount = mount.get()](const BusMessage& message) {
+        ols_msg::truth_ptu_t angles;
+        if (!decode_exactly(message, angles)) return;
+        const double first_s =
+            1e-9 * static_cast<double>(start_monotonic_ns_ + 1000 * angles.utime - start_utc_ns_);
+        for (std::size_t i = 0; i < angles.pan_rad.size(); ++i)
+          mount->state(first_s + static_cast<double>(i) * angles.interval_s,
+                       {angles.pan_rad[i], angles.tilt_rad[i]});
+      });
+  return mount;
 }
 
 void LiveSite::connect_camera(Device& device) {

@@ -43,6 +43,7 @@ class LiveSite {
   std::unique_ptr<PtuDevice> connect_ptu(std::size_t station, const std::string& link);
   std::unique_ptr<PtuDevice> connect_onvif(std::size_t station, const std::string& folder);
   std::unique_ptr<PtuDevice> connect_telescope(std::size_t station);
+  std::unique_ptr<PtuDevice> connect_external(std::size_t station);
   void connect_camera(Device& device);
   void connect_sensors(Device& device, const std::string& link_stem);
   void receive_fault(const void* data, int bytes);

@@ -278,9 +278,13 @@ std::vector<Row> station_rows(StationScenario& station) {
                    "GigE Vision, or video by RTSP (live only)."),
       config::word(
           "mount", station.mount,
-          {{"ptu", MountModel::kPtu}, {"onvif", MountModel::kOnvif}, {"indi", MountModel::kIndi}},
-          "A pan-tilt unit, that of an ONVIF PTZ camera, or an equatorial telescope "
-          "mount behind an INDI server (both live only)."),
+          {{"ptu", MountModel::kPtu},
+           {"onvif", MountModel::kOnvif},
+           {"indi", MountModel::kIndi},
+           {"external", MountModel::kExternal}},
+          "A pan-tilt unit, that of an ONVIF PTZ camera, or, live only: an equatorial telescope "
+          "mount behind an INDI server; a mount of another program, which publishes its angles as "
+          "truth_ptu_t on OLS_SIM_ANGLES_<station>."),
       config::text("ptu_line", station.ptu_line, "Name of the PTU's serial line.")
           .default_is("ID.ptu"),
       config::text("ptu_device", station.ptu_device,

@@ -78,10 +78,10 @@ struct Errors {
   } frames;
 };
 
-// The mount of a station's camera: a pan-tilt unit, an ONVIF PTZ camera, or (in the live simulation
-// only) a telescope mount behind an INDI server. The station's heading and tilt align the telescope
-// mount with the pole.
-enum class MountModel { kPtu, kOnvif, kIndi };
+// The mount of a station's camera: a pan-tilt unit, an ONVIF PTZ camera, or, in the live simulation
+// only, a telescope mount behind an INDI server, or a mount that another program simulates. The
+// station's heading and tilt align the telescope mount with the pole.
+enum class MountModel { kPtu, kOnvif, kIndi, kExternal };
 
 struct StationScenario {
   std::string id;

@@ -105,6 +105,7 @@ void write_devices(std::ostream& out, const Scenario& s, const StationScenario& 
         << "\ntilt_deg = " << degrees(station.fixed->tilt_rad) << "\n";
     return;
   }
+  if (station.mount == MountModel::kExternal) return;  // only its own program knows its interface
   if (station.mount == MountModel::kIndi) {
     out << "kind = \"indi\"\nhost = " << toml_text(station.camera_address)
         << "\ndevice = \"OLS Telescope\"\naxes = \"equatorial\"\npan_min_deg = -120\n"

@@ -10,6 +10,7 @@
 #include <ctime>
 
 #include "base/process/clocks.h"
+#include "ols_msg/truth_ptu_t.hpp"
 #include "ols_msg/truth_target_t.hpp"
 #include "tests/unit/temp_dir.h"
 
@@ -62,6 +63,39 @@ TEST(LiveSite, SteppedHostClockMovesNeitherTargetNorItsStamp) {
       Eigen::Vector3d(after.position_ecef_m) - Eigen::Vector3d(before.position_ecef_m);
   const Eigen::Vector3d expected = later_s * Eigen::Vector3d(before.velocity_ecef_m_s);
   EXPECT_LT((moved - expected).norm(), 0.5 + 10.0 * later_s * later_s);
+}
+
+Scenario with_an_external_mount() {
+  Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/rtsp.toml");
+  scenario.stations.resize(1);
+  StationScenario& station = scenario.stations.front();
+  station.fixed.reset();
+  station.rtsp = false;
+  station.camera_address = "127.0.0.1";
+  station.mount = MountModel::kExternal;
+  return scenario;
+}
+
+TEST(LiveSite, AnExternalMountHasTheAnglesThatItsProgramPublishes) {
+  const World world(with_an_external_mount(), 1);
+  LcmBus bus("memq://");
+  ols_msg::truth_ptu_t received{};
+  bus.subscribe("OLS_SIM_PTU_alfa",
+                [&](const BusMessage& message) { EXPECT_TRUE(decode_exactly(message, received)); });
+  LiveSite site(world, temp_dir() + "ols_live_site_" + std::to_string(::getpid()), bus);
+  ols_msg::truth_ptu_t stated{};
+  stated.utime = clock_utime_us() - 500'000;
+  stated.interval_s = 0.25;
+  stated.samples = 2;
+  stated.pan_rad = {0.1, 0.3};
+  stated.tilt_rad = {-0.2, -0.1};
+  bus.publish("OLS_SIM_ANGLES_alfa", stated);
+  bus.handle(1000);
+  site.publish_truth();
+  for (int turn = 0; turn < 100 && received.pan_rad.empty(); ++turn) bus.handle(100);
+  ASSERT_FALSE(received.pan_rad.empty());
+  EXPECT_EQ(received.pan_rad.back(), 0.3);
+  EXPECT_EQ(received.tilt_rad.back(), -0.1);
 }
 
 }  // namespace
