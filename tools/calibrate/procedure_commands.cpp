@@ -250,7 +250,7 @@ void add_procedures(CLI::App& app, ProcedureOptions& options) {
   add_live(*sweep, options);
   add_resume(*sweep, options);
   CLI::App* check = add(app, options, "check",
-                        "Looks at four views of the panorama again: has the tripod moved?");
+                        "Looks at up to six views of the panorama again: has the tripod moved?");
   add_live(*check, options);
   check->add_option("--panorama", options.panorama,
                     "id of a sweep or a calibration whose pictures are compared with; else those "
