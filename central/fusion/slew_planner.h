@@ -56,9 +56,10 @@ struct Slew {
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;  // 1-sigma, each axis; in a search along a ray: across the ray
-  // In a search along a ray: the unit vector of the ray on the tangent plane. Zero otherwise. If
-  // the station is to recognise a cue's object by its motion, in whatever direction the object
-  // moves: (1, 0).
+  // In a search along a ray: the unit vector of the ray on the tangent plane. A vector that is not
+  // zero makes the station look for an object that moves steadily, in any direction. It is
+  // therefore also set, to (1, 0), if the station is to recognise a cue's object by its motion.
+  // Zero in all other cases.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double lease_s = 0.0;
   std::int64_t let_go_track_id = 0;  // the local track that its tracker is to let go of; 0: none
@@ -86,7 +87,8 @@ struct SlewStation {
 // The data that all stations share at one instant.
 struct SlewRound {
   std::int64_t now_us = 0;
-  std::map<std::int64_t, int> seen_by{};  // number of stations that see each target
+  std::map<std::int64_t, int>
+      seen_by{};  // number of stations that see each target, or that plan() begins to lead to it
   // Priority by target id. A target that is not in this map has priority 1. A target with priority
   // 0 leads no station.
   std::map<std::int64_t, double> priority{};
@@ -120,8 +122,8 @@ class SlewPlanner {
   // tracks, and to tracks that have coasted for at most coast_s.
   void allocate(SlewRound& round, std::span<const SlewStation> stations,
                 const std::vector<Track>& tracks) const;
-  // Plans the slews of these stations (all, or a part of them), and counts in the round how many
-  // stations are led to each target.
+  // Plans the slews of these stations (all, or a part of them). Adds the stations that it begins to
+  // lead to a target to round.seen_by, and counts the stations led to each cue in round.led_to.
   std::vector<Slew> plan(SlewRound& round, std::span<const SlewStation> stations,
                          const std::vector<Track>& tracks);
   void forget(const std::string& station) { searches_.erase(station); }

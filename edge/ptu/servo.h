@@ -1,12 +1,12 @@
 // The servo: makes a PTU follow a moving goal smoothly, and stop when the commands cease. Pure.
 //
 // In velocity mode, a unit such as the D46 would continue to move if the station's computer failed.
-// The servo therefore commands only *positions*. In every cycle, the commanded position is the
-// point where the goal would come to rest if it moved on for the look-ahead and then braked. The
-// unit does not reach this position while commands arrive, and therefore moves smoothly. When the
-// commands cease, the unit stops after at most the look-ahead (or 1/gain, if longer) plus its
-// braking time. If the unit must come to rest at the goal, the goal itself is commanded as soon as
-// it is within reach, and the unit brakes with its own acceleration.
+// The servo therefore commands only *positions*. In every cycle, the commanded position is
+// ahead of the goal: by the goal's travel during the look-ahead, plus the unit's braking distance
+// from the goal's rate. The unit does not reach this position while commands arrive, and therefore
+// moves smoothly. When the commands cease, the unit stops after at most the look-ahead (or 1/gain,
+// if longer) plus its braking time. If the unit must come to rest at the goal, the goal itself is
+// commanded as soon as it is within reach, and the unit brakes with its own acceleration.
 #pragma once
 
 #include <optional>

@@ -20,7 +20,7 @@ struct StationTruth {
   // The geometry in the station's configuration, with its sigmas. After a stationing, it is the
   // stationing's result.
   StationGeometry nominal;
-  StationGeometry truth;  // without the errors of `unit`
+  StationGeometry truth;  // the true geometry; the unit's own errors (gears, axes) are in `unit`
   UnitTruth unit;
   // Of a zoom lens: the truth and its calibration.
   std::optional<ZoomTruth> zoom;
