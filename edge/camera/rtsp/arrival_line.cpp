@@ -12,11 +12,9 @@ constexpr std::size_t kSpans = 150;     // five minutes
 constexpr std::size_t kLeastSpans = 5;  // for a measured rate, the open one included
 constexpr double kGap_s = 30.0;         // without pictures: nothing is known of the clock any more
 
-// What the scatter is taken for before it is seen. After so many spans half of it is left. Counted
-// among the squares, as so many spans, it would still be 1.4 ms after five minutes: far more than
-// a quiet network scatters.
-constexpr double kPrior_s = 0.010;
-constexpr double kPriorSpans = 3.0;
+constexpr double kPrior_s = 0.010;        // the scatter, while there are too few spans to show it
+constexpr std::size_t kScatterSpans = 4;  // show it: two more than the line has parameters
+constexpr double kLeastScatter_s = 1e-5;  // of stamps that count 90 000 a second
 
 constexpr double kOscillator = 1e-4;  // 1-sigma of an honest rate error
 constexpr double kFarOffRate = 5e-3;  // no oscillator: the stamps lie
@@ -77,7 +75,9 @@ void ArrivalLine::forget_what_came_before_a_step() {
 }
 
 // Least squares, with Huber weights against spans in which every picture was late. An honest
-// oscillator bounds the rate; a rate that is far off is fitted freely.
+// oscillator bounds the rate, as firmly as the scatter demands; a rate that is far off is fitted
+// freely. The open span may not have had its least delayed picture yet: it counts only while there
+// are no two others.
 void ArrivalLine::fit() {
   const Least& newest = least_.back();
   const double count = static_cast<double>(least_.size());
@@ -87,13 +87,15 @@ void ArrivalLine::fit() {
   const double slope = span_s > 0.0 ? (newest.arrival_s - oldest.arrival_s) / span_s : 1.0;
   const bool lies = std::abs(slope - 1.0) > (knows_rate() ? kFarOffRate : kFarOffAtFirst);
   const double start_rate = lies ? slope : 1.0;
-  const double rate_information = lies ? 0.0 : std::pow(std::max(kPrior_s, sd_s_) / kOscillator, 2);
 
   std::array<double, 2> x{newest.arrival_s, start_rate};
-  double scale_s = 0.0;
+  const std::size_t used = least_.size() - (least_.size() > 2 ? 1 : 0);
+  double scale_s = kPrior_s;
   for (int turn = 0; turn < 4; ++turn) {
+    const double rate_information = lies ? 0.0 : std::pow(scale_s / kOscillator, 2);
     double n = 0, t = 0, tt = rate_information, y = 0, ty = 0, square = 0;
-    for (const Least& least : least_) {
+    for (std::size_t i = 0; i < used; ++i) {
+      const Least& least = least_[i];
       const double time_s = least.device_s - reference_s_;
       const double value_s = least.arrival_s - newest.arrival_s - start_rate * time_s;
       const double residual = least.arrival_s - x[0] - x[1] * time_s;
@@ -106,8 +108,11 @@ void ArrivalLine::fit() {
       ty += weight * time_s * value_s;
       if (turn > 0) square += weight * residual * residual;
     }
-    const double prior_s = kPrior_s * kPriorSpans / (kPriorSpans + n);
-    scale_s = turn > 0 ? std::hypot(prior_s, std::sqrt(square / n)) : kPrior_s;
+    if (turn > 0) {
+      scale_s = used < kScatterSpans ? std::hypot(kPrior_s, std::sqrt(square / n))
+                                     : std::sqrt(square / std::max(n - 2.0, 1.0));
+      scale_s = std::max(scale_s, kLeastScatter_s);
+    }
     const double determinant = n * tt - t * t;
     const bool solvable = determinant > 1e-9 * n * tt && count >= 2.0;
     x[0] = newest.arrival_s + (solvable ? (tt * y - t * ty) / determinant : y / n);

@@ -129,6 +129,31 @@ TEST(RtspClock, ArrivalsAreHonestAfterFiveMinutes) {
   }
 }
 
+// With the true delay: what is left is the line through the arrivals. A quiet network shows the
+// camera's rate in seconds, a busy one only later.
+TEST(RtspClock, TheLineThroughTheArrivalsIsAsGoodAsStated) {
+  for (const double jitter_s : {0.004, 0.1}) {
+    for (const double from_s : {12.0, 60.0}) {
+      double square_s2 = 0.0, told_s2 = 0.0;
+      for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        RtspWorld world;
+        world.random.seed(seed);
+        world.jitter_s = jitter_s;
+        world.stamp_rate = 1.0 + std::normal_distribution<double>(0.0, 50e-6)(world.random);
+        world.report_every_s = 0.0;
+        RtspClock clock({.delay_s = world.delay_s, .delay_sd_s = 1e-6});
+        const Judged judged = run(world, clock, from_s, 2.0);
+        square_s2 += judged.square_s2 / judged.count / 60.0;
+        told_s2 += judged.told_s2 / judged.count / 60.0;
+      }
+      // The least of 50 pictures is late by a fiftieth of what they are late by.
+      EXPECT_LT(std::sqrt(square_s2), 2.0 * jitter_s / 50.0) << jitter_s << " from " << from_s;
+      EXPECT_GT(std::sqrt(told_s2 / square_s2), 0.7) << jitter_s << " from " << from_s;
+      EXPECT_LT(std::sqrt(told_s2 / square_s2), 1.5) << jitter_s << " from " << from_s;
+    }
+  }
+}
+
 TEST(RtspClock, ReportsOfAWrongClockAreNotBelieved) {
   struct Case {
     const char* what;
