@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct Options {
   int cameras = 1;                // served, at successive ports
   ols::sim::RtspServerConfig server;
   ols::camera::RtspConfig camera;
-  double seconds = 30.0, after_s = 15.0, calibrate_s = 0.0, clock_off_s = 0.0;
+  double seconds = 30.0, after_s = 15.0, calibrate_s = 0.0, delay_error_s = 0.0, clock_off_s = 0.0;
 };
 
 // A sky with noise of 2 gray levels, drawn once, shifted for each picture.
@@ -88,12 +89,19 @@ struct Measured {
   std::string text;  // the camera's own report, and its alarms
 };
 
-// The delay that the sender reports of this time imply.
-double learnt_delay_s(const ols::camera::RtspConfig& config, double seconds) {
+// Sets the delay that the sender reports of this time imply, and its 1-sigma. The reports of these
+// cameras are exact.
+void calibrate(ols::camera::RtspConfig& config, double seconds) {
   ols::camera::RtspCamera camera(config);
   const double until_s = ols::clock_monotonic_s() + seconds;
   while (!ols::shutdown_requested() && ols::clock_monotonic_s() < until_s) camera.next(0.2);
-  return camera.report().readings.at("camera_delay_s");
+  const auto report = camera.report();
+  const auto& readings = report.readings;
+  if (!readings.contains("camera_delay_s"))
+    throw std::runtime_error(config.url + ": " + report.text);
+  config.clock.delay_s = readings.at("camera_delay_s");
+  config.clock.delay_sd_s = std::sqrt(std::max(
+      0.0, std::pow(readings.at("camera_delay_sd_s"), 2) - std::pow(config.clock.report_sd_s, 2)));
 }
 
 // `late`: whether the error of the calibrated delay makes pictures seem late, not early.
@@ -101,8 +109,9 @@ Measured watch(const Options& options, const std::string& url, bool late) {
   auto config = options.camera;
   config.url = url;
   if (options.calibrate_s > 0.0) {
-    config.clock.delay_s =
-        learnt_delay_s(config, options.calibrate_s) + (late ? -1.0 : 1.0) * config.clock.delay_sd_s;
+    calibrate(config, options.calibrate_s);
+    config.clock.delay_s += (late ? -1.0 : 1.0) * options.delay_error_s;
+    config.clock.delay_sd_s = std::hypot(config.clock.delay_sd_s, options.delay_error_s);
     // Reports of a picture that came hours before its exposure are not believed.
     config.clock.report_delay_s = -1e4;
   }
@@ -184,8 +193,13 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", o.seconds, "[s] measured")->capture_default_str();
   app.add_option("--after", o.after_s, "[s] before that")->capture_default_str();
   app.add_option("--calibrate", o.calibrate_s,
-                 "[s] by sender reports first, for the delay; then by arrivals alone, with "
-                 "the delay wrong by delay_sd_s, either way in turn")
+                 "[s] by sender reports first, for the delay and its 1-sigma; then by arrivals "
+                 "alone, with these")
+      ->capture_default_str();
+  app.add_option(
+         "--delay-error", o.delay_error_s,
+         "[s] by which --calibrate makes the delay wrong, either way in turn; it is part of "
+         "the 1-sigma")
       ->capture_default_str();
   app.add_option("--delay", o.camera.clock.delay_s, "[s] delay_s")->capture_default_str();
   app.add_option("--delay-sd", o.camera.clock.delay_sd_s, "[s] delay_sd_s")->capture_default_str();

@@ -150,13 +150,14 @@ void RtspSource::note_time(const RtspStream& stream, const FrameTime& time, doub
     switched = std::string("camera: its times are now by ") +
                (by_reports ? "sender reports: " : "arrivals: ") + milliseconds("%+.0f ms", *jump_s);
   }
-  const double delay_s = clock_.learnt_delay_s().value_or(config_.clock.delay_s);
+  const auto delay = clock_.learnt_delay().value_or(
+      RtspClock::Delay{config_.clock.delay_s, config_.clock.delay_sd_s});
   handover_.change_facts([&](CameraFacts& facts) {
     facts.identity = "RTSP " + stream.codec() +
                      (by_reports ? ", times by sender reports" : ", times by arrivals") +
-                     milliseconds(", delay %.0f ms", delay_s);
+                     milliseconds(", delay %.0f ms", delay.delay_s);
     facts.kind_alarms = alarms(now_s);
-    facts.kind_readings = {{"camera_delay_s", delay_s}};
+    facts.kind_readings = {{"camera_delay_s", delay.delay_s}, {"camera_delay_sd_s", delay.sd_s}};
     facts.kind_counters = {{"camera_packets_lost", lost_packets_},
                            {"camera_time_switches", switches_}};
     if (switched.empty()) return;

@@ -28,8 +28,10 @@ void RtspClock::restart() {
   refused_since_s_.reset();
 }
 
-std::optional<double> RtspClock::learnt_delay_s() const {
-  return learnt_from_ > 0 ? std::optional(learnt_delay_s_) : std::nullopt;
+std::optional<RtspClock::Delay> RtspClock::learnt_delay() const {
+  if (learnt_from_ == 0) return std::nullopt;
+  return Delay{learnt_delay_s_,
+               std::hypot(std::sqrt(learnt_from_ / learnt_weight_), config_.report_sd_s)};
 }
 
 std::optional<double> RtspClock::rate() const {
@@ -63,18 +65,27 @@ bool RtspClock::credible(double delay_s, double sd_s, double arrival_s) const {
   return learnt_from_ < kLearnt || std::abs(delay_s - learnt_delay_s_) < slack_s;
 }
 
-void RtspClock::learn(double delay_s, double arrival_s) {
+// While host and network are busy, even the least delayed pictures are late, by about as much as
+// they scatter. A delay that is learnt then is too long by that: it counts the less, the more they
+// scatter, and is no surer than the arrivals that it is learnt from.
+void RtspClock::learn(const Delay& delay, double arrival_s) {
   if (learnt_from_ > 0 && arrival_s - learnt_s_ < kLearnEvery_s) return;
   learnt_s_ = arrival_s;
-  if (learnt_from_ < kLearnt && std::abs(delay_s - learnt_delay_s_) > kStep_s) learnt_from_ = 0;
-  learnt_from_ = std::min(learnt_from_ + 1, kLearnFrom);
-  learnt_delay_s_ += (delay_s - learnt_delay_s_) / learnt_from_;
+  if (learnt_from_ < kLearnt && std::abs(delay.delay_s - learnt_delay_s_) > kStep_s)
+    learnt_from_ = 0;
+  if (learnt_from_ == 0) learnt_weight_ = 0.0;
+  if (learnt_from_ == kLearnFrom)
+    learnt_weight_ *= 1.0 - 1.0 / kLearnFrom;
+  else
+    ++learnt_from_;
+  const double weight = 1.0 / (delay.sd_s * delay.sd_s);
+  learnt_weight_ += weight;
+  learnt_delay_s_ += (delay.delay_s - learnt_delay_s_) * weight / learnt_weight_;
 }
 
 MappedTime RtspClock::by_arrivals(const MappedTime& arrival) const {
-  const bool learnt = learnt_from_ > 0;
-  return {.time_s = arrival.time_s - (learnt ? learnt_delay_s_ : config_.delay_s),
-          .sd_s = std::hypot(arrival.sd_s, learnt ? config_.report_sd_s : config_.delay_sd_s)};
+  const Delay delay = learnt_delay().value_or(Delay{config_.delay_s, config_.delay_sd_s});
+  return {.time_s = arrival.time_s - delay.delay_s, .sd_s = std::hypot(arrival.sd_s, delay.sd_s)};
 }
 
 FrameTime RtspClock::stamp(const RtspStamp& picture, std::int64_t utc_minus_monotonic_ns) {
@@ -94,7 +105,7 @@ FrameTime RtspClock::stamp(const RtspStamp& picture, std::int64_t utc_minus_mono
         .sd_s = std::hypot(config_.report_sd_s, std::sqrt(step_square_s2_))};
     const double delay_s = arrival.time_s - reported.time_s;
     if (credible(delay_s, std::hypot(reported.sd_s, arrival.sd_s), picture.arrival_s)) {
-      learn(delay_s, picture.arrival_s);
+      learn({delay_s, arrival.sd_s}, picture.arrival_s);
       time = reported;
       source = StampSource::kCamera;
       refused_since_s_.reset();

@@ -44,8 +44,12 @@ class RtspClock {
   // The last stamp()'s result minus the time that the previous source would have given. Set only if
   // this stamp() changed the source.
   std::optional<double> jump_s() const { return jump_s_; }
-  // The delay from mid-exposure to arrival, learnt from the reports; nullopt if none was learnt.
-  std::optional<double> learnt_delay_s() const;
+  struct Delay {
+    double delay_s, sd_s;  // from mid-exposure to the arrival of the first packet
+  };
+  // The delay learnt from the reports; nullopt if none was learnt. sd_s combines report_sd_s and
+  // the scatter of the arrivals when it was learnt.
+  std::optional<Delay> learnt_delay() const;
   // The delay that the sender report implies, if it is not credible; otherwise nullopt.
   std::optional<double> refused_delay_s() const { return refused_delay_s_; }
   // Seconds of the station's clock per second of the camera's stamps; nullopt until it is measured.
@@ -54,7 +58,8 @@ class RtspClock {
  private:
   void note_report(std::int64_t report_ns, std::int64_t offset_ns, double arrival_s);
   bool credible(double delay_s, double sd_s, double arrival_s) const;
-  void learn(double delay_s, double arrival_s);
+  // sd_s of `delay`: the scatter of the arrivals alone.
+  void learn(const Delay& delay, double arrival_s);
   MappedTime by_arrivals(const MappedTime& arrival) const;
 
   Config config_;
@@ -66,8 +71,9 @@ class RtspClock {
   // Smoothed mean square of the changes of (reported time - stamp) from report to report.
   double step_square_s2_ = 0.0;
   double learnt_delay_s_ = 0.0;
-  double learnt_s_ = 0.0;  // arrival at which the delay was last learnt
-  int learnt_from_ = 0;    // number of samples in learnt_delay_s_
+  double learnt_weight_ = 0.0;  // [1/s^2] sum, each the inverse square of the arrivals' scatter
+  double learnt_s_ = 0.0;       // arrival at which the delay was last learnt
+  int learnt_from_ = 0;         // number of samples in learnt_delay_s_
   std::optional<double> refused_since_s_, refused_delay_s_;
   std::optional<StampSource> source_;
   std::optional<double> jump_s_;
