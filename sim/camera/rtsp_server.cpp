@@ -24,9 +24,12 @@ constexpr double kStampClock_hz = 90'000.0;
 constexpr std::uint64_t kNtpMinusUtc_s = 2'208'988'800U;
 constexpr double kIdle_s = 0.05;
 
-// x264 is not everywhere; JPEG is.
+// x264 is not everywhere; JPEG is. As in a camera, a picture is left out when the encoder is late;
+// in an endless queue, pictures would become ever older.
 std::string launch_line(const RtspServerConfig& c) {
-  const std::string source = "( appsrc name=source is-live=true format=time block=false ! ";
+  const std::string source =
+      "( appsrc name=source is-live=true format=time max-buffers=2 max-bytes=0 "
+      "leaky-type=downstream ! ";
   GstElementFactory* x264 = gst_element_factory_find("x264enc");
   if (x264 != nullptr) gst_object_unref(x264);
   if (c.codec == VideoCodec::kJpeg || x264 == nullptr)
