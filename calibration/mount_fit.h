@@ -38,7 +38,7 @@ struct MountFit {
 // directions, or if the result is too uncertain.
 std::optional<MountFit> fit_mount(std::vector<MountReading> readings);
 
-// Whether the delays of a mount's axes differ by more than 3 sigma and 20 ms. Both axes of a mount
+// Whether the delays of a mount's axes differ by more than 3 sigma plus 20 ms. Both axes of a mount
 // have the same delay, because the mount reports them together. If the measured delays differ, the
 // pictures of one axis came with wrong times.
 bool have_different_delays(const MountFit& a, const MountFit& b);

@@ -52,6 +52,8 @@ class PointingModel {
   const lens::ByAxis<std::optional<double>>& lens() const { return lens_; }
   // Discards all earlier angles. Call it when the unit's zero may have changed.
   void forget_angles();
+  // Discards from which side each axis has come. Call it when the unit may have moved unseen.
+  void forget_approach() { approach_.clear(); }
 
   // Uses this geometry from now on. The pose becomes that of the geometry. `calibration`: the
   // calibration from which the geometry comes, if any.

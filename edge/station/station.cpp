@@ -167,7 +167,10 @@ void Station::follow_since(double mid_exposure_s) {
 void Station::set_reference(mount::Reference reference) {
   const bool had_angles = !mode_.has_doubtful_angles();
   mode_.set_reference(reference);
-  if (reference == mount::Reference::kUnknown) manual_.clear();
+  if (reference == mount::Reference::kUnknown) {
+    manual_.clear();
+    pointing_.forget_approach();
+  }
   if (had_angles && mode_.has_doubtful_angles()) forget_angles();
 }
 

@@ -88,8 +88,8 @@ class Station {
     ++setup_revision_;
   }
   // Sets whether the PTU's reference is valid. While the reference is missing or in doubt, the
-  // station neither points nor follows slews, and discards angles. It keeps its target; later,
-  // slews can lead the station back to the target.
+  // station neither points nor follows slews, and discards the angles that it had. It keeps its
+  // target; later, slews can lead the station back to the target.
   void set_reference(mount::Reference reference);
   // Until the first call, the pose is that of the configured geometry. Without a position, the
   // station sends no bearings.

@@ -13,7 +13,7 @@ constexpr std::size_t kLeastSpans = 5;  // for a measured rate, the open one inc
 constexpr double kGap_s = 30.0;         // without pictures: nothing is known of the clock any more
 
 constexpr double kPrior_s = 0.010;        // the scatter, while there are too few spans to show it
-constexpr std::size_t kScatterSpans = 4;  // show it: two more than the line has parameters
+constexpr std::size_t kScatterSpans = 8;  // show it: fewer would often show too little by chance
 constexpr double kLeastScatter_s = 1e-5;  // of stamps that count 90 000 a second
 
 constexpr double kOscillator = 1e-4;  // 1-sigma of an honest rate error
@@ -77,19 +77,20 @@ void ArrivalLine::forget_what_came_before_a_step() {
 // Least squares, with Huber weights against spans in which every picture was late. An honest
 // oscillator bounds the rate, as firmly as the scatter demands; a rate that is far off is fitted
 // freely. The open span may not have had its least delayed picture yet: it counts only while there
-// are no two others.
+// is no other.
 void ArrivalLine::fit() {
   const Least& newest = least_.back();
   const double count = static_cast<double>(least_.size());
   const Least& oldest = least_.front();
-  const double span_s = newest.device_s - oldest.device_s;
+  const std::size_t used = least_.size() - (least_.size() > 1 ? 1 : 0);
+  const Least& last = least_[used - 1];
+  const double span_s = last.device_s - oldest.device_s;
   reference_s_ = newest.device_s;
-  const double slope = span_s > 0.0 ? (newest.arrival_s - oldest.arrival_s) / span_s : 1.0;
+  const double slope = span_s > 0.0 ? (last.arrival_s - oldest.arrival_s) / span_s : 1.0;
   const bool lies = std::abs(slope - 1.0) > (knows_rate() ? kFarOffRate : kFarOffAtFirst);
   const double start_rate = lies ? slope : 1.0;
 
   std::array<double, 2> x{newest.arrival_s, start_rate};
-  const std::size_t used = least_.size() - (least_.size() > 2 ? 1 : 0);
   double scale_s = kPrior_s;
   for (int turn = 0; turn < 4; ++turn) {
     const double rate_information = lies ? 0.0 : std::pow(scale_s / kOscillator, 2);

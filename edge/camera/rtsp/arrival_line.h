@@ -26,7 +26,7 @@ class ArrivalLine {
   // Seconds of the station's clock per second of the camera's stamps. In the first seconds, a rate
   // of about 1 is assumed unless the arrivals clearly show another one.
   double rate() const { return rate_; }
-  // Whether rate() has been measured over at least eight seconds.
+  // Whether rate() has been measured over four spans of two seconds that have ended.
   bool knows_rate() const;
 
  private:

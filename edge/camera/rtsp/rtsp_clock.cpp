@@ -30,9 +30,10 @@ void RtspClock::restart() {
 
 std::optional<RtspClock::Delay> RtspClock::learnt_delay() const {
   if (learnt_from_ == 0) return std::nullopt;
-  return Delay{learnt_delay_s_,
-               std::hypot(std::sqrt(learnt_from_ / learnt_weight_), config_.report_sd_s)};
+  return Delay{learnt_delay_s_, std::hypot(learnt_scatter_s(), config_.report_sd_s)};
 }
+
+double RtspClock::learnt_scatter_s() const { return std::sqrt(learnt_from_ / learnt_weight_); }
 
 std::optional<double> RtspClock::rate() const {
   return arrivals_.knows_rate() ? std::optional(arrivals_.rate()) : std::nullopt;
@@ -62,7 +63,8 @@ bool RtspClock::credible(double delay_s, double sd_s, double arrival_s) const {
   const double slack_s = kSigmas * sd_s;
   if (delay_s < -slack_s) return false;
   if (delay_s > config_.delay_s + kSigmas * config_.delay_sd_s + slack_s) return false;
-  return learnt_from_ < kLearnt || std::abs(delay_s - learnt_delay_s_) < slack_s;
+  return learnt_from_ < kLearnt ||
+         std::abs(delay_s - learnt_delay_s_) < kSigmas * std::hypot(sd_s, learnt_scatter_s());
 }
 
 // While host and network are busy, even the least delayed pictures are late, by about as much as

@@ -56,6 +56,9 @@ class RtspClock {
   std::optional<double> rate() const;
 
  private:
+  // 1-sigma of the learnt delay from the scatter of the arrivals that it was learnt from. Call it
+  // only if a delay was learnt.
+  double learnt_scatter_s() const;
   void note_report(std::int64_t report_ns, std::int64_t offset_ns, double arrival_s);
   bool credible(double delay_s, double sd_s, double arrival_s) const;
   // sd_s of `delay`: the scatter of the arrivals alone.

@@ -83,7 +83,8 @@ Heard IndiSession::connect(IndiLink& link, mount::SharedDrive& shared,
   link.set_interval(config_.drive.poll_s);
   need("the telescope reports no position or no place",
        [](const Heard& h) { return h.position && h.observer; });
-  if (!may_unpark_) may_unpark_ = link.heard().is_parked;
+  // After a lost connection, nobody knows who has parked it.
+  may_unpark_ = !may_unpark_ && link.heard().is_parked;
   return link.heard();
 }
 
@@ -93,12 +94,15 @@ bool IndiSession::is_left_alone(const Heard& heard) const {
   return is_put_away(heard) && !may_unpark_.value_or(false);
 }
 
-void IndiSession::unpark(IndiLink& link, mount::SharedDrive& shared, const std::stop_token& stop) {
-  may_unpark_ = false;
+// Asks again at intervals: something else, such as a dome, may still forbid it.
+void IndiSession::unpark(IndiLink& link, mount::SharedDrive& shared, double now_s) {
+  if (now_s - unpark_asked_s_ < kPatience_s) return;
+  if (unpark_asked_s_ > 0.0) {
+    const std::lock_guard lock(shared.mutex);
+    shared.last_error = "INDI: the telescope stays parked: " + link.heard().message;
+  }
   link.unpark();
-  const auto is_unparked = [](const Heard& h) { return !h.is_parked; };
-  if (!wait_until(link, shared, kPatience_s, stop, is_unparked) && !stop.stop_requested())
-    throw IndiError("the telescope stays parked: " + link.heard().message);
+  unpark_asked_s_ = now_s;
 }
 
 void IndiSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
@@ -136,7 +140,7 @@ void IndiSession::serve(IndiLink& link, mount::SharedDrive& shared, device::Devi
     const double now_s = clock_monotonic_s();
     if (now.lost) throw IndiError("the INDI server or the driver is gone");
     if (!now.is_connected) throw IndiError("the driver has lost the telescope: " + now.message);
-    if (now_s - std::max(began_s, now.position_s) > kPatience_s)
+    if (!is_put_away(now) && now_s - std::max(began_s, now.position_s) > kPatience_s)
       throw IndiError("the telescope reports no positions");
     if (!now.is_parked) may_unpark_ = false;
     mount::Order order;
@@ -149,7 +153,7 @@ void IndiSession::serve(IndiLink& link, mount::SharedDrive& shared, device::Devi
       is_awaited = is_put_away(now) && !is_left_alone(now) && shared.drive.has_goal();
       if (!is_put_away(now) || shared.drive.in_emergency()) order = shared.drive.next(now_s);
     }
-    if (is_awaited) unpark(link, shared, stop);
+    if (is_awaited) unpark(link, shared, now_s);
     if (slews_since_s_ && !now.slews && now_s - *slews_since_s_ > kGoToBegins_s) {
       link.stop();  // or it would follow the stars from there
       slews_since_s_.reset();
@@ -186,7 +190,7 @@ void IndiSession::judge(const Heard& now, mount::SharedDrive& shared) {
   if (motions + stops + positions > 0) shared.last_error = "INDI: " + now.message;
   heard_ = now;
   if (pier_side_.empty()) pier_side_ = now.pier_side;
-  const bool other_side = now.pier_side != pier_side_;
+  const bool other_side = now.pier_side != pier_side_ && (is_left_alone(now) || !is_put_away(now));
   shared.usable = !is_left_alone(now) && !other_side;
   shared.alarms.clear();
   if (is_left_alone(now)) shared.alarms.push_back(alarm::ptu_parked());

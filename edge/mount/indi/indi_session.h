@@ -29,16 +29,17 @@ class IndiSession : public mount::MountSession {
              const std::stop_token& stop);
   void judge(const Heard& now, mount::SharedDrive& shared);
   bool is_left_alone(const Heard& heard) const;
-  void unpark(IndiLink& link, mount::SharedDrive& shared, const std::stop_token& stop);
+  void unpark(IndiLink& link, mount::SharedDrive& shared, double now_s);
   void take_position(const IndiLink& link, mount::SharedDrive& shared, double now_s);
   void carry_out(IndiLink& link, const mount::Order& order, double now_s);
   PanTilt angles_at(double monotonic_s) const;
 
   const IndiConfig config_;
   std::string pier_side_;  // as configured, or as first reported
-  // Whether the telescope has been parked since the first connection, so that the first goal
-  // unparks it; nullopt before that connection.
+  // Whether the telescope was parked at the first connection and has been seen parked ever since,
+  // so that a goal may unpark it. nullopt before that connection.
   std::optional<bool> may_unpark_;
+  double unpark_asked_s_ = -1e9;
   Heard heard_;
   double taken_s_ = 0.0;                 // time of the newest position that the drive has taken
   std::optional<double> slews_since_s_;  // when the slew to an ordered position began

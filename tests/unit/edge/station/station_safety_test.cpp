@@ -381,5 +381,22 @@ TEST_F(StationSafetyTest, APersonVouchesOnlyForWhatIsDoubted) {
   EXPECT_TRUE(station_.take_actions().reference_ok);
 }
 
+// A unit that cannot be reached may move unseen.
+TEST_F(StationSafetyTest, FromWhichSideItsUnitCameIsUnknownAfterItWasLost) {
+  station_.set_limits({.count = {5.61e-5, 5.61e-5}});
+  const auto side = [this] {
+    run_until(now_ + 0.3, false);
+    const auto counts = station_.pointing().counts_at(now_ - 0.1);
+    EXPECT_TRUE(counts);
+    return counts ? counts->approach.pan : -2;
+  };
+  EXPECT_EQ(side(), 0);
+  angles_.pan_rad += 0.01;
+  EXPECT_EQ(side(), 1);
+  station_.set_reference(mount::Reference::kUnknown);
+  station_.set_reference(mount::Reference::kTrusted);
+  EXPECT_EQ(side(), 0);
+}
+
 }  // namespace
 }  // namespace ols::station
