@@ -180,6 +180,7 @@ def test_it_holds_a_target_with_bearings_as_good_as_stated(ptz):
     accuracy = bearing_accuracy(recording, held)
     print(len(held), "bearings of", len(seen), "pictures;", accuracy)
     assert {b.track_id for b in held} == {first.track_id}
+    assert len(held) >= 0.95 * len(seen)
     for actual, stated in zip(accuracy["rms_deg"], accuracy["stated_deg"], strict=True):
         assert actual < 3.0 * stated, accuracy
     ptz.running.stop("alfa")
