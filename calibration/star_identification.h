@@ -52,15 +52,16 @@ struct StarIdentification {
   // `possible`: the largest possible number of matches; the number of stars in the table and the
   // number of detections limit it. `next_best`: the number of matches at the best other heading.
   std::size_t detections = 0, possible = 0, matched = 0, next_best = 0;
-  // The change of the focal length, as a share of the model's focal length, and its 1-sigma. These
-  // stars alone determine it. A large change shows that the lens was refocused.
+  // The change of the focal length, as a share of the model's focal length, and its 1-sigma. The
+  // fit that determines both does not use the station's prior of the focal length. A large change
+  // shows that the lens was refocused.
   double focal_change = 0.0, focal_sd = 0.0;
   double rms_px = 0.0;  // of the residuals of each coordinate
   std::string finding;  // a sentence: what was found, or why nothing was found
 };
 
-// Uses the station's tilts, mounting and lens, with their deviations, but not its heading.
-// `frames`: should be in at least three different directions; two may suffice.
+// Uses the station's tilts, mounting and lens as priors, with their 1-sigmas; does not use its
+// heading. `frames`: should be in at least three different directions; two may suffice.
 StarIdentification identify_stars(const StationPrior& station, std::span<const StarFrame> frames,
                                   const StarConditions& conditions,
                                   std::span<const TableStar> table = star_table());

@@ -4,14 +4,14 @@
 // rectification has measured).
 //
 // The method is maximum a posteriori. The heading has no prior. Tilts, mounting and position have
-// the station's stated deviations as priors. The position is a nuisance parameter: the resulting
-// station keeps its old position, and the improved position is a separate result. A turn of the
-// mounting about the vertical has the same effect as a change of the heading. At the horizon, only
-// their sum is observable, and only their sum is needed.
+// priors with the station's stated 1-sigmas. The position is a nuisance parameter: the resulting
+// station keeps its old position, and the improved position is a separate result. For lines of
+// sight at the horizon, a turn of the mounting about z has the same effect as a change of the
+// heading. Only their sum is observable there, and only their sum is needed.
 //
 // The adjustment is tested by geodetic methods (W. Baarda, A Testing Procedure for Use in Geodetic
 // Networks, 1968; P. Teunissen, Testing Theory). First, data snooping finds mistaken landmarks
-// (calibration/mistaken_landmarks.h). Then the global test detects stated deviations that are too
+// (calibration/mistaken_landmarks.h). Then the global test detects stated 1-sigmas that are too
 // small.
 #pragma once
 
@@ -27,7 +27,7 @@
 
 namespace ols::calibration {
 
-// The sighting of a landmark in a station's image. The deviations of pixel and angles must not be
+// The sighting of a landmark in a station's image. The 1-sigmas of pixel and angles must not be
 // zero. Sightings with exactly the same landmark_ecef belong to one landmark, and share the error
 // of its coordinates.
 struct LandmarkSighting {
@@ -110,22 +110,23 @@ struct HorizonSd {
 };
 
 struct Stationing {
-  // The geometry with the adjusted chain. The remaining errors are strongly correlated; the
-  // separate deviations of `station.sd` cannot express this. In `station.sd`, the deviation of the
-  // mounting is therefore zero. The deviations of heading and tilts are the smallest values that
-  // cover the error of every line of sight within `highest_rad` of the horizon.
+  // The geometry with the adjusted chain. The remaining errors of heading, tilts and mounting are
+  // strongly correlated; separate 1-sigmas cannot express this. `station.sd` therefore puts the
+  // errors of direction into heading and tilts, and `station.sd.mount_rad` is zero. The 1-sigmas of
+  // heading and tilts are the smallest that cover the error of every line of sight within
+  // `highest_rad` of the horizon. `station.sd.mount_roll_rad` is the adjusted roll's own 1-sigma.
   StationGeometry station;
-  // [rad^2] Includes the variance factor if the global test rejects the stated deviations.
+  // [rad^2] Includes the variance factor if the global test rejects the stated 1-sigmas.
   PoseCovariance covariance = PoseCovariance::Zero();
-  // Each sighting's residual (cross-elevation, elevation), divided by its deviation.
+  // Each sighting's residual (cross-elevation, elevation), divided by its 1-sigma.
   std::vector<Eigen::Vector2d> residuals;
   std::vector<Eigen::Vector2d> residuals_rad;
   std::vector<LandmarkTest> landmarks;
   ModelTest global;
   // The w-test of each prior (tilt x, tilt y, mount z, mount x, mount y, east, north, up). If the
-  // prior is right, the value is standard normal. 0 for a prior without a deviation.
+  // prior is right, the value is standard normal. 0 for a prior whose 1-sigma is zero.
   std::array<double, 8> stated_w{};
-  double scaled_by = 1.0;  // factor by which the global test has enlarged the deviations
+  double scaled_by = 1.0;  // factor by which the global test has enlarged the 1-sigmas
   // The station's position, improved by the landmarks, and the 1-sigma of its worst axis.
   Geodetic position;
   double position_sd_m = 0.0;

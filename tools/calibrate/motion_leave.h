@@ -1,11 +1,11 @@
 // Decides from a station's status whether a procedure may move the unit or release the station from
 // manual operation. Pure.
 //
-// A procedure's commands to point and to release end a stop, as an operator's own commands do. But
-// a procedure must never end a person's stop. A status that shows no stop may have been sent just
-// before a stop. After a stop, the station therefore refuses both commands for
-// StationMode::kStopHold_s. If such a stop has happened, a command that relies on a status younger
-// than kReliedOn_s arrives within that time and is refused.
+// A stop ends when a procedure or an operator commands the station to point, or releases it from
+// manual operation. But a procedure must never end a person's stop. A status that shows no stop may
+// have been sent just before a stop. After a stop, the station therefore refuses both commands for
+// StationMode::kStopHold_s. If a stop came after the status was sent, a command that relies on a
+// status younger than kReliedOn_s arrives within kStopHold_s of that stop, and is refused.
 #pragma once
 
 #include "ols_msg/station_status_t.hpp"
