@@ -51,7 +51,9 @@ struct UserTask {
 struct MapTask {
   std::string map = {};  // empty: the list of maps
   TileAddress tile = {};
-  bool accuracy = false;  // true: for an accuracy map; false: for a tile
+  // true: for a planned site's expected accuracy (console/maps/accuracy_file.h); false: for a map
+  // tile.
+  bool accuracy = false;
 };
 
 using WebAnswer = std::variant<WebResponse, LoginTask, UserTask, MapTask, LandTask>;

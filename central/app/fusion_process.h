@@ -81,7 +81,7 @@ class FusionProcess {
   std::map<std::int64_t, std::int64_t> cue_orders_;
   std::int64_t cue_message_us_ = 0;  // time of the newest cue
   double waited_s_ = 0.0;            // how long the current bearing waited before it was processed
-  std::int64_t status_message_us_ = 0;  // "now" at the last status
+  std::int64_t status_message_us_ = 0;  // Fusion::now_us() at the last status
   double status_s_ = 0.0;               // this host's monotonic clock at the last status
 };
 

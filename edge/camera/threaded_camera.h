@@ -20,9 +20,9 @@ class CameraSource {
   CameraSource(const CameraSource&) = delete;
   CameraSource& operator=(const CameraSource&) = delete;
 
-  // Opens the camera, and hands over its frames until the handover has ended. Throws CameraUnfit if
-  // the configuration does not suit the camera, or another exception if the camera is absent or
-  // lost.
+  // Opens the camera, and publishes its frames to the CameraHandover until ended() is true. Throws
+  // CameraUnfit if the configuration does not suit the camera, or another exception if the camera
+  // is absent or lost.
   virtual void serve() = 0;
   // The pause between a failure and the next attempt to open the camera.
   virtual double pause_s() = 0;
@@ -31,7 +31,7 @@ class CameraSource {
 class ThreadedCamera : public Camera {
  public:
   using MakeSource = std::function<std::unique_ptr<CameraSource>(CameraHandover&)>;
-  // Starts the thread, which connects to the camera, and returns at once.
+  // Returns at once; the thread that it starts connects to the camera.
   ThreadedCamera(const CameraConfig& config, const MakeSource& make_source);
   ~ThreadedCamera() override;
 
