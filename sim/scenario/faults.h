@@ -11,11 +11,11 @@ namespace ols::sim {
 struct PtzFaults {           // of an ONVIF PTZ
   double late_s = 0.0;       // age of the reported positions
   double step_deg = 0.0;     // the reported positions are multiples of this; 0: exact
-  bool frozen = false;       // it keeps reporting its position at the beginning of the fault
+  bool frozen = false;       // it keeps reporting the position that it had when the fault began
   bool no_position = false;  // it reports no position
   bool ignores_timeout = false, ignores_stop = false;
   double clock_off_s = 0.0;  // its clock minus UTC
-  double lost_share = 0.0;   // share of requests that are lost, with their connections
+  double lost_share = 0.0;   // share of requests that are not answered; their connections break
   bool reboots = false;      // when it becomes true, the camera reboots: it does not answer for a
                              // while, and is then at its home position
   bool operator==(const PtzFaults&) const = default;
@@ -37,12 +37,14 @@ struct PtuFaults {
 };
 
 struct CameraFaults {
-  bool gone = false;          // the camera gives no answers, as if unplugged
-  double packet_loss = 0.0;   // share of image packets
-  bool no_resend = false;     // the camera does not resend packets
-  double missing_rate = 0.0;  // RTSP: share of the stamped pictures that are not sent
-  double clock_off_s = 0.0;   // RTSP: the camera's clock minus UTC
-  double clock_drift = 0.0;   // RTSP: drift [s/s] of the camera's clock since power-up
+  bool gone = false;         // the camera gives no answers, as if unplugged
+  double packet_loss = 0.0;  // share of image packets
+  bool no_resend = false;    // the camera does not resend packets
+  // RTSP: the camera makes pictures at (1 - missing_rate) times its frame rate, but stamps them at
+  // the spacing of the full frame rate.
+  double missing_rate = 0.0;
+  double clock_off_s = 0.0;  // RTSP: the camera's clock minus UTC
+  double clock_drift = 0.0;  // RTSP: drift [s/s] of the camera's clock since power-up
   // Format that the camera enforces from the next connection on; empty: none.
   std::string pixel_format;
   bool operator==(const CameraFaults&) const = default;
