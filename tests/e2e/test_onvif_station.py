@@ -77,23 +77,35 @@ def ptz(network, tmp_path_factory):
         yield Ptz(folder, running, folder / "config/alfa.toml")
 
 
+def measured(config):
+    """On a busy machine, pictures can come with wrong times; the command then says to repeat it."""
+    command = [BIN / "ols-calibrate", "mount", "--station", config, "--write"]
+    for _ in range(3):
+        done = finished(*command)
+        print(done.stdout, done.stderr)
+        if "contradict each other" not in done.stderr:
+            break
+    return done
+
+
 def test_it_measures_what_its_position_reports_are_worth(ptz):
     text = ptz.config.read_text()
     wrong = re.sub(r"pan_gain_deg = .*", f"pan_gain_deg = {-1.05 * GAIN_DEG}", text)
     ptz.config.write_text(wrong)
     ptz.fault("ptz-late", 1e6, LATE_S)
     ptz.start()
-    ptz.look_at_scenery()
-    done = finished(BIN / "ols-calibrate", "mount", "--station", ptz.config, "--write")
-    print(done.stdout, done.stderr)
-    assert done.returncode == 0, done.stdout + done.stderr
-    mount = tomllib.loads(ptz.config.read_text())["mount"]
+    try:
+        ptz.look_at_scenery()
+        done = measured(ptz.config)
+        assert done.returncode == 0, done.stdout + done.stderr
+        mount = tomllib.loads(ptz.config.read_text())["mount"]
+    finally:
+        ptz.running.stop("alfa")
+        ptz.fault("all", 0.0)
+        ptz.config.write_text(text)
     assert mount["pan_gain_deg"] == pytest.approx(-GAIN_DEG, rel=0.005)
     assert mount["tilt_gain_deg"] == pytest.approx(60.0, rel=0.005)
     assert mount["delay_s"] == pytest.approx(LATE_S, abs=0.02)
-    ptz.running.stop("alfa")
-    ptz.fault("all", 0.0)
-    ptz.config.write_text(text)
 
 
 def test_it_locks_a_target_and_stops_when_it_is_killed(ptz):

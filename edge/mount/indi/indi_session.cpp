@@ -99,7 +99,7 @@ void IndiSession::unpark(IndiLink& link, mount::SharedDrive& shared, double now_
   if (now_s - unpark_asked_s_ < kPatience_s) return;
   if (unpark_asked_s_ > 0.0) {
     const std::lock_guard lock(shared.mutex);
-    shared.last_error = "INDI: the telescope stays parked: " + link.heard().message;
+    shared.last_error = "the telescope stays parked: " + link.heard().message;
   }
   link.unpark();
   unpark_asked_s_ = now_s;
