@@ -18,8 +18,8 @@ struct AcceptanceLimits {
   double detectable_arcsec = 30.0;  // largest detectable bias of a reference
   // The same offset as in without_itself_arcsec, in sigmas.
   double without_itself_sigma = 3.0;
-  double without_itself_arcsec =
-      20.0;  // largest offset of a checked reference from the position that the others predict
+  // Largest offset of a checked reference from the position that the others predict.
+  double without_itself_arcsec = 20.0;
   double closing_arcsec = 12.0;            // from first to last sighting of a reference
   double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
   // Smallest number of 60 deg sectors of azimuth that contain a reference.

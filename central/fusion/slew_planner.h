@@ -87,8 +87,8 @@ struct SlewStation {
 // The data that all stations share at one instant.
 struct SlewRound {
   std::int64_t now_us = 0;
-  std::map<std::int64_t, int>
-      seen_by{};  // number of stations that see each target, or that plan() begins to lead to it
+  // Number of stations that see each target, or that plan() begins to lead to it.
+  std::map<std::int64_t, int> seen_by{};
   // Priority by target id. A target that is not in this map has priority 1. A target with priority
   // 0 leads no station.
   std::map<std::int64_t, double> priority{};

@@ -15,8 +15,8 @@ namespace ols::fusion {
 // One sector of a station's skyline.
 struct SkylineSector {
   std::string station;
-  std::int64_t begun_us =
-      0;  // when the station began this skyline; a new value voids earlier sectors
+  // When the station began this skyline; a new value voids earlier sectors.
+  std::int64_t begun_us = 0;
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   bool heading_disagrees = false;  // the skyline does not fit the station's heading
   int sector = 0;

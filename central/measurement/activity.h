@@ -14,8 +14,8 @@ struct Activity {
   static constexpr double kContributesS = 0.5;  // it contributes to the published position
   static constexpr double kFollowsS = 1.0;      // it keeps its target, and its states in a filter
   static constexpr double kSupportsS = 2.0;     // it supports a track
-  static constexpr double kTeachesS =
-      30.0;  // its bearings still constrain the estimated biases of other stations
+  // Its bearings still constrain the estimated biases of other stations.
+  static constexpr double kTeachesS = 30.0;
 
   std::int64_t last_us = 0;  // time of the newest bearing; 0 if there is none
 

@@ -25,8 +25,8 @@ struct TrackletConfig {
   // Each further detection of a dim point (Evidence::kStack) adds this to the log likelihood ratio.
   // Noise produces such a detection on a given path only once in 250 tries.
   double stack_log_ratio = 4.0;
-  double least_directness =
-      0.7;  // for objects against the ground: minimum of (distance from start) / (path length)
+  // For objects against the ground: minimum of (distance from start) / (path length).
+  double least_directness = 0.7;
   double coast_s = 0.4;  // how long a confirmed tracklet is kept without detections
 };
 

@@ -19,8 +19,8 @@ struct GpioConfig {
   // high, because the contact connects to ground and the line is pulled up. True: low, because the
   // contact connects to the supply and the line is pulled down.
   bool stop_active_low = false;
-  double stop_release_s =
-      0.05;  // a release counts when it has been stable for this time; a press counts at once
+  // A release counts when it has been stable for this time; a press counts at once.
+  double stop_release_s = 0.05;
   // The button that re-arms the station after an emergency stop; normally open.
   int rearm_line = -1;  // -1 if there is none
   // True: the button connects to ground, and the line is pulled up. False: the button connects to

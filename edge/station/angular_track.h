@@ -13,8 +13,8 @@ namespace ols::station {
 class AngularTrack {
  public:
   struct Config {
-    double acceleration_sd_rad_s2 =
-        0.15;  // square root of the spectral density of the white acceleration [rad/s^2/sqrt(Hz)]
+    // Square root of the spectral density of the white acceleration [rad/s^2/sqrt(Hz)].
+    double acceleration_sd_rad_s2 = 0.15;
     double initial_rate_sd_rad_s = 0.3;
     double measurement_sd_floor_rad = 2e-5;
   };
