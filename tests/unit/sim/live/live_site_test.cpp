@@ -72,7 +72,7 @@ Scenario with_an_external_mount() {
   StationScenario& station = scenario.stations.front();
   station.fixed.reset();
   station.rtsp = false;
-  station.camera_address = "127.0.0.1";
+  station.camera_address = "127.0.0.71";  // of no other test: they run side by side
   station.mount = MountModel::kExternal;
   return scenario;
 }
