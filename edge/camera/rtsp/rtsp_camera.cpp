@@ -150,8 +150,7 @@ void RtspSource::note_time(const RtspStream& stream, const FrameTime& time, doub
     switched = std::string("camera: its times are now by ") +
                (by_reports ? "sender reports: " : "arrivals: ") + milliseconds("%+.0f ms", *jump_s);
   }
-  const auto delay = clock_.learnt_delay().value_or(
-      RtspClock::Delay{config_.clock.delay_s, config_.clock.delay_sd_s});
+  const RtspClock::Delay delay = clock_.delay();
   handover_.change_facts([&](CameraFacts& facts) {
     facts.identity = "RTSP " + stream.codec() +
                      (by_reports ? ", times by sender reports" : ", times by arrivals") +

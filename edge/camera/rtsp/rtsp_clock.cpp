@@ -33,6 +33,10 @@ std::optional<RtspClock::Delay> RtspClock::learnt_delay() const {
   return Delay{learnt_delay_s_, std::hypot(learnt_scatter_s(), config_.report_sd_s)};
 }
 
+RtspClock::Delay RtspClock::delay() const {
+  return learnt_delay().value_or(Delay{config_.delay_s, config_.delay_sd_s});
+}
+
 double RtspClock::learnt_scatter_s() const { return std::sqrt(learnt_from_ / learnt_weight_); }
 
 std::optional<double> RtspClock::rate() const {
@@ -86,8 +90,8 @@ void RtspClock::learn(const Delay& delay, double arrival_s) {
 }
 
 MappedTime RtspClock::by_arrivals(const MappedTime& arrival) const {
-  const Delay delay = learnt_delay().value_or(Delay{config_.delay_s, config_.delay_sd_s});
-  return {.time_s = arrival.time_s - delay.delay_s, .sd_s = std::hypot(arrival.sd_s, delay.sd_s)};
+  const auto [delay_s, sd_s] = delay();
+  return {.time_s = arrival.time_s - delay_s, .sd_s = std::hypot(arrival.sd_s, sd_s)};
 }
 
 FrameTime RtspClock::stamp(const RtspStamp& picture, std::int64_t utc_minus_monotonic_ns) {

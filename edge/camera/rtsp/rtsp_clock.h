@@ -50,6 +50,8 @@ class RtspClock {
   // The delay learnt from the reports; nullopt if none was learnt. sd_s combines report_sd_s and
   // the scatter of the arrivals when it was learnt.
   std::optional<Delay> learnt_delay() const;
+  // The learnt delay, or the configured one.
+  Delay delay() const;
   // The delay that the sender report implies, if it is not credible; otherwise nullopt.
   std::optional<double> refused_delay_s() const { return refused_delay_s_; }
   // Seconds of the station's clock per second of the camera's stamps; nullopt until it is measured.
