@@ -59,8 +59,9 @@ void ArrivalLine::add(std::int64_t device_ns, double arrival_s) {
   fit();
 }
 
+// A line before them needs two spans that have ended and the one that was open.
 void ArrivalLine::forget_what_came_before_a_step() {
-  if (least_.size() <= kStepSpans + 1) return;
+  if (least_.size() <= kStepSpans + 2) return;
   ArrivalLine before = *this;
   before.least_.erase(before.least_.end() - kStepSpans, before.least_.end());
   before.fit();

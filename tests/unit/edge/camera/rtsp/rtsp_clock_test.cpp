@@ -244,6 +244,30 @@ TEST(RtspClock, ReportsOfAWrongClockAreNotBelieved) {
   }
 }
 
+// Before the rate of the stamps is known, a report through lying stamps cannot be told from a good
+// one. Nothing of it may stay.
+TEST(RtspClock, ReportsBeforeTheRateIsKnownTeachNoDelay) {
+  for (const double stamp_rate : {0.84, 1.1}) {
+    RtspWorld world;
+    world.stamp_rate = stamp_rate;
+    world.first_report_s = 0.1;
+    RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.05, .report_delay_s = 0, .report_sd_s = 0.01});
+    const Judged judged = run(world, clock, 8.5, 10.0);
+    EXPECT_FALSE(clock.learnt_delay()) << stamp_rate;
+    EXPECT_LT(judged.worst_s, 0.1) << stamp_rate;
+  }
+}
+
+TEST(RtspClock, ARateThatIsKnownStaysKnown) {
+  RtspWorld world;
+  world.stamp_rate = 0.84;
+  RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.05});
+  for (double since_s = 0.0; since_s < 20.0; since_s += 0.04) {
+    clock.stamp(world.picture(world.start_s + since_s), kUtcMinusMonotonic_ns);
+    if (since_s > 8.5) ASSERT_TRUE(clock.rate()) << since_s;
+  }
+}
+
 TEST(RtspClock, FirstReportsThatAreWrongDoNotOutliveTheirCorrection) {
   RtspWorld world;
   world.clock_off_s = -0.35;
