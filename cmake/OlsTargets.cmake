@@ -67,7 +67,8 @@ function(ols_precompile name)
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "") # untouched where it is there
   add_library(${name} STATIC ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE ols_options ols_opencv Eigen3::Eigen)
-  target_compile_options(${name} PRIVATE -O0 "SHELL:-Xclang -fmodules-codegen")
+  # Without the time of the list of headers: the compiler cache has the result of an earlier, equal list.
+  target_compile_options(${name} PRIVATE -O0 "SHELL:-Xclang -fmodules-codegen" "SHELL:-Xclang -fno-pch-timestamp")
   target_precompile_headers(${name} PRIVATE ${ARGN})
 
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${name}.dir)
