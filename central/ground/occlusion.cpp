@@ -15,6 +15,7 @@ namespace {
 
 // Three for the position, one for the land's height, one for the places of its outlines.
 constexpr int kDimensions = 5, kSamples = 64, kFirstLook = 8;
+constexpr double kOutlineSd_m = 1.0;  // of buildings: they are mapped to a metre or two
 using Samples = Eigen::Matrix<double, kDimensions, kSamples>;
 
 // Standard normal, in pairs of opposite signs, each dimension with a variance of 1.
@@ -55,15 +56,7 @@ class Looks {
 
   void look(int from, int to) {
     for (std::size_t i = 0; i < path_.size(); ++i) {
-      // Beside a house the mean path has only the land behind the house, but samples may have the
-      // house itself. So the nearest horizon around counts.
-      constexpr std::size_t kBeside = 20;
-      const auto from_i = i < kBeside ? 0 : i - kBeside;
-      const auto to_i = std::min(path_.size(), i + kBeside + 1);
-      const double crest_m =
-          *std::min_element(crests_m_.begin() + static_cast<std::ptrdiff_t>(from_i),
-                            crests_m_.begin() + static_cast<std::ptrdiff_t>(to_i));
-      for (int k = from; k < to; ++k) looks_[i * kSamples + index(k)] = look_at(i, k, crest_m);
+      for (int k = from; k < to; ++k) looks_[i * kSamples + index(k)] = look_at(i, k, crests_m_[i]);
     }
   }
   const Look& at(std::size_t instant, int sample) const {
@@ -88,28 +81,59 @@ class Looks {
     return land && seen_ != nullptr ? seen_->hiding(*land, azimuth_rad, distance_m) : land;
   }
 
+  static double apparent_elevation(const Eigen::Vector3d& enu) {
+    const double distance_m = std::max(1.0, enu.head<2>().norm());
+    return std::atan(enu.z() / distance_m + land::refraction_slope(land::kRefraction, distance_m));
+  }
+
+  // The distance of the nearest land that may hide the mean path if the model is wrong by three
+  // sigmas: in height, or in the place of an outline. Over nearer land whoever set up the tripod
+  // has looked.
   double crest_at(std::size_t instant) const {
-    constexpr double kNearest_m = 20.0;
+    constexpr double kNearest_m = 40.0, kSigmas = 3.0, kNarrower = 0.6;
     const Eigen::Vector3d& enu = roots_[instant].mean_enu;
-    const auto crest = highest_before(std::atan2(enu.x(), enu.y()), enu.head<2>().norm());
-    return std::max(kNearest_m, crest ? crest->distance_m : kNearest_m);
+    const double azimuth_rad = std::atan2(enu.x(), enu.y()), distance_m = enu.head<2>().norm();
+    const double elevation_rad = apparent_elevation(enu);
+    for (double m = kNearest_m / kNarrower; m < distance_m; m /= kNarrower) {
+      for (const double beside_m : {0.0, -kSigmas * kOutlineSd_m, kSigmas * kOutlineSd_m}) {
+        const auto crest = horizon_.highest_before(azimuth_rad + beside_m / m, m);
+        if (crest && crest->distance_m > kNearest_m &&
+            crest->elevation_rad + kSigmas * crest->elevation_sd_rad > elevation_rad)
+          return crest->distance_m;
+      }
+    }
+    const auto crest = highest_before(azimuth_rad, distance_m);
+    return std::max(kNearest_m, crest ? crest->distance_m : distance_m);
+  }
+
+  // How high one sample is above the land in front of it. Seen from the camera, the sample
+  // displaces all outlines sideways. The highest land of the model hides the sample, or nearer land
+  // that is lower, but less well known. `crest_m`: the distance of that nearer land.
+  double above_land(const AzimuthElevation& direction, double distance_m, double sideways_m,
+                    double sigmas_higher, double crest_m) const {
+    const double behind_m = 1.5 * crest_m;
+    const double displaced_rad = direction.azimuth_rad + sideways_m / crest_m;
+    auto highest = highest_before(displaced_rad, distance_m);
+    if (!highest) return 1.0;  // land that is not known hides nothing
+    const auto above = [&](const land::Skyline& land) {
+      return direction.elevation_rad - land.elevation_rad - sigmas_higher * land.elevation_sd_rad;
+    };
+    if (highest->distance_m < behind_m) return above(*highest);
+    const double far_rad = direction.azimuth_rad + sideways_m / highest->distance_m;
+    const auto far = highest_before(far_rad, distance_m);
+    if (far && far->distance_m >= behind_m) highest = far;
+    const auto near = horizon_.highest_before(displaced_rad, behind_m);
+    return near ? std::min(above(*near), above(*highest)) : above(*highest);
   }
 
   Look look_at(std::size_t instant, int sample, double crest_m) const {
-    // Outlines of buildings are mapped to a metre or two.
-    constexpr double kOutlineSd_m = 1.0;
     static const Samples samples = draw_samples();
     const auto z = samples.col(sample);
     const Root& root = roots_[instant];
     const Eigen::Vector3d enu = root.mean_enu + root.root * z.head<3>();
-    const double distance_m = enu.head<2>().norm();
-    Look look{azimuth_elevation_from_enu(enu), 1.0};
-    const auto land =
-        highest_before(look.direction.azimuth_rad + kOutlineSd_m * z(4) / crest_m, distance_m);
-    if (!land) return look;  // land that is not known hides nothing
-    const double lift = land::refraction_slope(land::kRefraction, distance_m);
-    look.above_rad = std::atan(enu.z() / std::max(1.0, distance_m) + lift) - land->elevation_rad -
-                     z(3) * land->elevation_sd_rad;
+    Look look{azimuth_elevation_from_enu(enu)};
+    look.above_rad = above_land({look.direction.azimuth_rad, apparent_elevation(enu)},
+                                enu.head<2>().norm(), kOutlineSd_m * z(4), z(3), crest_m);
     return look;
   }
 
@@ -118,7 +142,7 @@ class Looks {
   std::span<const Position> path_;
   std::vector<Look> looks_;
   std::vector<Root> roots_;
-  std::vector<double> crests_m_;  // distance of the horizon below the mean path
+  std::vector<double> crests_m_;  // of the nearest land that may hide the mean path, or its horizon
 };
 
 // The instant at which the target is most probably hidden, in the first occlusion that begins

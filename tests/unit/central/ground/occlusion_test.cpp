@@ -94,6 +94,19 @@ TEST(Occlusion, IsEndingWhileItMayStillBeHidden) {
   EXPECT_LT(found->exit->in_s, 0.5);
 }
 
+// A house's outline is known to a metre. So what stays 1 m beside a house 50 m away is hidden with
+// a probability of 0.16.
+TEST(Occlusion, MayBeBehindAHouseThatIsAMetreBesideIt) {
+  const auto land = std::make_shared<const Land>([](double east_m, double north_m) {
+    return std::abs(east_m - 55.0) < 5.0 && north_m > 1.0 && north_m < 20.0 ? 60.0 : 0.0;
+  });
+  LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});
+  const auto path = straight(*land, {1000.0, 0.0, 60.0}, {-10.0, 0.0, 0.0});
+  const auto found = occlusion_ahead(horizon, path, kStep_s, kLead_s);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->hidden, 0.16, 0.06);
+}
+
 // As behind the wall that the land has, above.
 TEST(Occlusion, IsBehindWhatTheStationHasSeen) {
   const auto land = std::make_shared<const Land>(flat);
