@@ -9,28 +9,36 @@
 namespace ols::calibration {
 namespace {
 
-using Eigen::Matrix4d;
-using Eigen::Vector4d;
-
 constexpr double kLeastSd_rad = 2e-5;  // of a position beside a picture
 constexpr double kStray = 4.0;         // 1-sigmas
 constexpr int kRounds = 20, kLeastRests = 5, kLeastMoves = 6;
-enum Unknown { kZero, kGain, kBacklash, kLag };  // kLag: gain * delay
+// kLag: gain * delay plus half of the backlash over the speed.
+enum Unknown { kZero, kGain, kBacklash, kMovingZero, kLag, kUnknowns };
+
+using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 struct Solution {
-  Vector4d x = Vector4d::Zero();
-  Matrix4d covariance = Matrix4d::Zero();
+  Vector x = Vector::Zero();
+  Matrix covariance = Matrix::Zero();
   double rest_sd_rad = 1e-3, move_sd_rad = 1e-2;
 };
 
-Vector4d row_of(const MountReading& r) {
-  return {1.0, r.reported_rad, 0.5 * r.approach, r.rate_rad_s};
+Vector row_of(const MountReading& r) {
+  Vector row = Vector::Zero();
+  row(kGain) = r.reported_rad;
+  row(r.moves ? kMovingZero : kZero) = 1.0;
+  if (r.moves)
+    row(kLag) = r.rate_rad_s;
+  else
+    row(kBacklash) = 0.5 * r.approach;
+  return row;
 }
 
-double residual(const MountReading& r, const Vector4d& x) { return r.seen_rad - row_of(r).dot(x); }
+double residual(const MountReading& r, const Vector& x) { return r.seen_rad - row_of(r).dot(x); }
 
 // Robust 1-sigma of the residuals of one kind.
-double scatter(const std::vector<MountReading>& readings, const Vector4d& x, bool moves) {
+double scatter(const std::vector<MountReading>& readings, const Vector& x, bool moves) {
   std::vector<double> sizes;
   for (const MountReading& r : readings) {
     if (r.moves == moves) sizes.push_back(std::abs(residual(r, x)));
@@ -40,16 +48,15 @@ double scatter(const std::vector<MountReading>& readings, const Vector4d& x, boo
 }
 
 // `robust`: by Huber's weights for the present solution.
-void solve(const std::vector<MountReading>& readings, bool both_sides, bool robust, Solution& s) {
+void solve(const std::vector<MountReading>& readings, bool robust, Solution& s) {
   constexpr double kHuber = 1.5;  // 1-sigmas
-  Matrix4d N = Matrix4d::Zero();
-  Vector4d b = Vector4d::Zero();
-  if (!both_sides) N(kBacklash, kBacklash) = 1e20;
+  Matrix N = Matrix::Zero();
+  Vector b = Vector::Zero();
   for (const MountReading& r : readings) {
     const double sd = r.moves ? s.move_sd_rad : s.rest_sd_rad;
     const double off = std::abs(residual(r, s.x)) / sd;
     const double weight = (robust && off > kHuber ? kHuber / off : 1.0) / (sd * sd);
-    const Vector4d row = row_of(r);
+    const Vector row = row_of(r);
     N += weight * row * row.transpose();
     b += weight * row * r.seen_rad;
   }
@@ -58,9 +65,9 @@ void solve(const std::vector<MountReading>& readings, bool both_sides, bool robu
 }
 
 // Also the deviations, from the residuals.
-void settle(const std::vector<MountReading>& readings, bool both_sides, Solution& s) {
+void settle(const std::vector<MountReading>& readings, Solution& s) {
   for (int round = 0; round < kRounds; ++round) {
-    solve(readings, both_sides, round > 0, s);
+    solve(readings, round > 0, s);
     s.rest_sd_rad = scatter(readings, s.x, false);
     s.move_sd_rad = scatter(readings, s.x, true);
   }
@@ -72,6 +79,22 @@ int count(const std::vector<MountReading>& readings, bool moves) {
 
 Measured measured(const Solution& s, Unknown of) {
   return {s.x(of), std::sqrt(s.covariance(of, of))};
+}
+
+double speed(const std::vector<MountReading>& readings) {
+  std::vector<double> speeds;
+  for (const MountReading& r : readings) {
+    if (r.moves) speeds.push_back(std::abs(r.rate_rad_s));
+  }
+  return median(std::move(speeds));
+}
+
+Measured delay(const Solution& s, double speed_rad_s) {
+  Vector by = Vector::Zero();
+  by(kLag) = 1.0;
+  by(kBacklash) = -0.5 / speed_rad_s;
+  by /= s.x(kGain);
+  return {by.dot(s.x), std::sqrt(by.dot(s.covariance * by))};
 }
 
 // Both ways, or a delay is not told from the zero.
@@ -102,25 +125,29 @@ std::optional<MountFit> fit_mount(std::vector<MountReading> readings) {
   const auto [least, most] = std::ranges::minmax(readings, {}, &MountReading::reported_rad);
   if (most.reported_rad - least.reported_rad < 1e-3) return std::nullopt;
   const auto from = [&](int side) {
-    return std::ranges::any_of(readings, [side](const auto& r) { return r.approach * side > 0; });
+    return std::ranges::any_of(readings,
+                               [side](const auto& r) { return !r.moves && r.approach * side > 0; });
   };
   const bool both_sides = from(1) && from(-1);
+  if (!both_sides) {
+    for (MountReading& r : readings) r.approach = 0;
+  }
   Solution s;
-  settle(readings, both_sides, s);
+  settle(readings, s);
   std::erase_if(readings, [&](const MountReading& r) {
     return std::abs(residual(r, s.x)) > kStray * (r.moves ? s.move_sd_rad : s.rest_sd_rad);
   });
-  settle(readings, both_sides, s);
-  solve(readings, both_sides, false, s);
+  settle(readings, s);
+  solve(readings, false, s);
   MountFit fit;
   fit.rests = count(readings, false);
   fit.moves = count(readings, true);
   fit.gain = measured(s, kGain);
-  if (fit.rests < kLeastRests || fit.moves < kLeastMoves || fit.gain.value == 0.0)
+  if (fit.rests < kLeastRests || fit.moves < kLeastMoves || fit.gain.value == 0.0 ||
+      !turned_both_ways(readings))
     return std::nullopt;
-  if (both_sides) fit.backlash_rad = measured(s, kBacklash);
-  const Measured lag = measured(s, kLag);
-  fit.delay_s = {lag.value / fit.gain.value, lag.sd / std::abs(fit.gain.value)};
+  fit.backlash_rad = measured(s, kBacklash);
+  fit.delay_s = delay(s, speed(readings));
   fit.position_sd_rad = s.rest_sd_rad;
   return is_useful(fit) ? std::optional(fit) : std::nullopt;
 }

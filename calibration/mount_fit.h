@@ -1,12 +1,17 @@
 // Measures the errors of the positions that a mount reports, by comparing them with the camera's
 // pictures. Pure.
 //
-//   seen = zero + gain * reported + backlash * approach / 2 + gain * delay * rate
+//   at rest:   seen = zero + gain * reported + backlash * approach / 2
+//   in motion: seen = zero' + gain * reported + backlash * approach / 2 + gain * delay * rate
 //
 // seen: the angle of an axis according to the picture. reported, rate: the angle and the rate that
 // the mount reports. approach: 1 or -1, the sign of the last motion. A report that is late by
 // `delay` states an earlier position of the mount. In motion, the picture is therefore ahead of the
 // report.
+//
+// Motion has a zero of its own, because a move to a position misses it by an error that stays until
+// the next such move. All motion has about the same speed, at which backlash and delay look the
+// same. Backlash is therefore measured at rest alone, and its uncertainty is part of the delay's.
 #pragma once
 
 #include <optional>
