@@ -9,6 +9,7 @@
 
 #include "calibration/trajectory.h"
 #include "geometry/angles.h"
+#include "geometry/pixel_prediction.h"
 
 namespace ols::calibration {
 namespace {

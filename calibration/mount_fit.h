@@ -17,6 +17,8 @@
 #include <optional>
 #include <vector>
 
+#include "calibration/measured.h"
+
 namespace ols::calibration {
 
 // One axis at one picture.
@@ -25,10 +27,6 @@ struct MountReading {
   int approach = 0;                             // 0: unknown
   double seen_rad = 0.0;                        // according to the picture
   bool moves = false;
-};
-
-struct Measured {
-  double value = 0.0, sd = 0.0;  // 1-sigma
 };
 
 struct MountFit {
