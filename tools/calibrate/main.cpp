@@ -12,6 +12,7 @@
 #include "tools/calibrate/aircraft.h"
 #include "tools/calibrate/camera.h"
 #include "tools/calibrate/command_report.h"
+#include "tools/calibrate/delay_command.h"
 #include "tools/calibrate/mount_command.h"
 #include "tools/calibrate/output_folder.h"
 #include "tools/calibrate/procedure_commands.h"
@@ -162,6 +163,8 @@ int main(int argc, char** argv) {
   const CLI::App* zooms = calibration::add_zoom(app, zoom);
   calibration::MountOptions mount;
   const CLI::App* mounts = calibration::add_mount(app, mount);
+  calibration::DelayOptions delay;
+  const CLI::App* delays = calibration::add_delay(app, delay);
   calibration::AircraftOptions aircraft;
   const CLI::App* heard =
       app.add_subcommand("aircraft", "What a receiver has heard, as references.");
@@ -180,6 +183,7 @@ int main(int argc, char** argv) {
   try {
     if (!procedure.name.empty()) return calibration::run_procedure(procedure);
     if (mounts->parsed()) return calibration::run_mount(mount);
+    if (delays->parsed()) return calibration::run_delay(delay);
     if (zooms->parsed()) return calibration::run_zoom(zoom);
     if (heard->parsed()) {
       const ols::Progress progress("ols-calibrate", "bytes");

@@ -7,20 +7,16 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/files/atomic_file.h"
-#include "base/files/small_file.h"
 #include "base/process/shutdown.h"
 #include "base/trust/trust_options.h"
 #include "geometry/angles.h"
 #include "tools/calibrate/command_report.h"
+#include "tools/calibrate/config_change.h"
 #include "tools/calibrate/mount_run.h"
 #include "tools/setup/flat_toml.h"
-#include "tools/setup/kept_file.h"
 
 namespace ols::calibration {
 namespace {
-
-constexpr std::size_t kLargestConfig = 1'000'000;
 
 std::string said(const std::string& axis, const AxisResult& of) {
   if (!of.fit && of.pictures == 0) return axis + ": too little travel to measure it";
@@ -36,22 +32,6 @@ std::string said(const std::string& axis, const AxisResult& of) {
       axis, fit.gain.value, fit.gain.sd, 1e3 * std::abs(fit.delay_s.value), 1e3 * fit.delay_s.sd,
       fit.delay_s.value < 0.0 ? "earlier" : "later", degrees(fit.backlash_rad.value),
       degrees(fit.backlash_rad.sd), degrees(fit.position_sd_rad), fit.rests, fit.moves);
-}
-
-double number_in(const setup::Values& values, const std::string& key, double otherwise) {
-  const std::string* text = setup::find(values, key);
-  return text == nullptr ? otherwise : std::stod(*text);
-}
-
-void set(setup::Values& values, const std::string& key, double number) {
-  const std::string text = fmt::format("{:.6g}", number);
-  for (auto& [known, value] : values) {
-    if (known == key) {
-      value = text;
-      return;
-    }
-  }
-  values.emplace_back(key, text);
 }
 
 void check(const MountResult& result) {
@@ -123,18 +103,6 @@ void check_limits(const setup::Values& values, const MountResult& result) {
   }
 }
 
-void write_into(const std::string& path, const std::string& text, const setup::Values& before,
-                const setup::Values& now) {
-  if (read_small_file(path, kLargestConfig) != text)
-    throw std::runtime_error(path + ": changed while the mount was measured: not written");
-  const auto rewritten = setup::rewrite(text, setup::as_toml(before), setup::as_toml(now));
-  if (!rewritten.text) throw std::runtime_error(path + ": " + rewritten.note);
-  AtomicFile file(path);
-  file.stream() << *rewritten.text;
-  file.commit();
-  std::printf("%s: written; restart the station\n", path.c_str());
-}
-
 }  // namespace
 
 CLI::App* add_mount(CLI::App& app, MountOptions& o) {
@@ -163,7 +131,7 @@ int run_mount(const MountOptions& o) {
   options.station = o.station;
   options.state_folder = o.state_folder;
   const StationFiles station = read_station(options);
-  const std::string text = read_small_file(station.config, kLargestConfig);
+  const std::string text = config_text(station.config);
   const setup::Values before = setup::flat(text);
   const std::string* kind = setup::find(before, "mount.kind");
   if (kind == nullptr || setup::text_in(*kind) != "onvif")
@@ -175,15 +143,10 @@ int run_mount(const MountOptions& o) {
   std::fflush(stdout);
   check(result);
   const setup::Values now = corrected(before, result);
-  for (const auto& [key, value] : now) {
-    const std::string* old = setup::find(before, key);
-    if (old == nullptr || *old != value)
-      std::printf("%s = %s (was %s)\n", key.c_str(), value.c_str(),
-                  old == nullptr ? "not stated" : old->c_str());
-  }
+  tell_changes(before, now);
   if (o.write) {
     check_limits(before, result);
-    write_into(station.config, text, before, now);
+    write_changes(station.config, text, before, now);
   }
   return result.pan.fit && result.tilt.fit ? 0 : kExitLookAtIt;
 }

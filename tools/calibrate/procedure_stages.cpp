@@ -13,6 +13,7 @@
 #include "calibration/procedure/sweep_plan.h"
 #include "calibration/procedure/sweep_stage.h"
 #include "edge/mount/keep_out.h"
+#include "tools/calibrate/config_change.h"
 #include "tools/calibrate/motion_leave.h"
 #include "tools/calibrate/session_options.h"
 
@@ -20,13 +21,6 @@ namespace ols::calibration {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kConfigFolder = "/etc/ols/";
-
-std::string config_path(const std::string& station) {
-  const bool is_path = station.find('/') != std::string::npos || station.ends_with(".toml");
-  return is_path ? station : kConfigFolder + station + ".toml";
-}
 
 fs::path store_of(const ProcedureOptions& options, const station::StationSettings& settings) {
   if (!options.state_folder.empty()) return options.state_folder;
