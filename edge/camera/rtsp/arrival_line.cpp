@@ -19,6 +19,7 @@ constexpr double kLeastScatter_s = 1e-5;  // of stamps that count 90 000 a secon
 constexpr double kOscillator = 1e-4;  // 1-sigma of an honest rate error
 constexpr double kFarOffRate = 5e-3;  // no oscillator: the stamps lie
 constexpr double kFarOffAtFirst = 0.02;
+constexpr std::size_t kFewestSpans = 3;  // show a rate that is far off: two are on a line anyway
 
 constexpr std::size_t kStepSpans = 3;  // in a row on one side of the line: the clock was stepped
 constexpr double kLineStep_s = 0.05;
@@ -59,9 +60,10 @@ void ArrivalLine::add(std::int64_t device_ns, double arrival_s) {
   fit();
 }
 
-// A line before them needs two spans that have ended and the one that was open.
+// The rate of a line before them needs kFewestSpans that have ended, and there is one that was
+// open.
 void ArrivalLine::forget_what_came_before_a_step() {
-  if (least_.size() <= kStepSpans + 2) return;
+  if (least_.size() <= kStepSpans + kFewestSpans) return;
   ArrivalLine before = *this;
   before.least_.erase(before.least_.end() - kStepSpans, before.least_.end());
   before.fit();
@@ -75,30 +77,39 @@ void ArrivalLine::forget_what_came_before_a_step() {
   if (beyond(1.0) || beyond(-1.0)) least_.erase(least_.begin(), from);
 }
 
-// Least squares, with Huber weights against spans in which every picture was late. An honest
-// oscillator bounds the rate, as firmly as the scatter demands; a rate that is far off is fitted
-// freely. The open span may not have had its least delayed picture yet: it counts only while there
-// is no other.
+// An honest oscillator bounds the rate, as firmly as the scatter demands. A rate that is far off is
+// fitted freely, but only if this explains the arrivals clearly better: on a busy host, even the
+// least delayed pictures of a few spans are late by very different times.
 void ArrivalLine::fit() {
-  const Least& newest = least_.back();
-  const double count = static_cast<double>(least_.size());
-  const Least& oldest = least_.front();
+  constexpr double kClearly = 4.0;
   const std::size_t used = least_.size() - (least_.size() > 1 ? 1 : 0);
-  const Least& last = least_[used - 1];
+  const Least &oldest = least_.front(), &last = least_[used - 1];
   const double span_s = last.device_s - oldest.device_s;
-  reference_s_ = newest.device_s;
   const double slope = span_s > 0.0 ? (last.arrival_s - oldest.arrival_s) / span_s : 1.0;
-  const bool lies = std::abs(slope - 1.0) > (knows_rate() ? kFarOffRate : kFarOffAtFirst);
-  const double start_rate = lies ? slope : 1.0;
+  Fitted fitted = fitted_from(1.0, false, used);
+  if (used >= kFewestSpans &&
+      std::abs(slope - 1.0) > (knows_rate() ? kFarOffRate : kFarOffAtFirst)) {
+    const Fitted free = fitted_from(slope, true, used);
+    if (free.sd_s < fitted.sd_s / kClearly) fitted = free;
+  }
+  reference_s_ = least_.back().device_s;
+  offset_s_ = fitted.offset_s;
+  rate_ = fitted.rate;
+  sd_s_ = fitted.sd_s;
+}
 
+// Least squares, with Huber weights against spans in which every picture was late. The open span
+// may not have had its least delayed picture yet: it counts only while there is no other.
+ArrivalLine::Fitted ArrivalLine::fitted_from(double start_rate, bool free, std::size_t used) const {
+  const Least& newest = least_.back();
   std::array<double, 2> x{newest.arrival_s, start_rate};
   double scale_s = kPrior_s;
   for (int turn = 0; turn < 4; ++turn) {
-    const double rate_information = lies ? 0.0 : std::pow(scale_s / kOscillator, 2);
+    const double rate_information = free ? 0.0 : std::pow(scale_s / kOscillator, 2);
     double n = 0, t = 0, tt = rate_information, y = 0, ty = 0, square = 0;
     for (std::size_t i = 0; i < used; ++i) {
       const Least& least = least_[i];
-      const double time_s = least.device_s - reference_s_;
+      const double time_s = least.device_s - newest.device_s;
       const double value_s = least.arrival_s - newest.arrival_s - start_rate * time_s;
       const double residual = least.arrival_s - x[0] - x[1] * time_s;
       const bool late = turn > 0 && residual > kHuber * scale_s;
@@ -116,13 +127,11 @@ void ArrivalLine::fit() {
       scale_s = std::max(scale_s, kLeastScatter_s);
     }
     const double determinant = n * tt - t * t;
-    const bool solvable = determinant > 1e-9 * n * tt && count >= 2.0;
+    const bool solvable = determinant > 1e-9 * n * tt && least_.size() >= 2;
     x[0] = newest.arrival_s + (solvable ? (tt * y - t * ty) / determinant : y / n);
     x[1] = start_rate + (solvable ? (n * ty - t * y) / determinant : 0.0);
   }
-  offset_s_ = x[0];
-  rate_ = x[1];
-  sd_s_ = scale_s;
+  return {x[0], x[1], scale_s};
 }
 
 std::optional<MappedTime> ArrivalLine::at(std::int64_t device_ns) const {

@@ -38,6 +38,11 @@ class ArrivalLine {
   double step_limit_s() const;
   void forget_what_came_before_a_step();
   void fit();
+  struct Fitted {
+    double offset_s, rate, sd_s;
+  };
+  // The line through the first `used` spans. `free`: the rate is not bounded.
+  Fitted fitted_from(double start_rate, bool free, std::size_t used) const;
 
   std::int64_t origin_ns_ = 0;
   double span_from_s_ = 0.0;  // arrival at the start of the newest span

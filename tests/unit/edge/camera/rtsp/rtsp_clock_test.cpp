@@ -258,6 +258,35 @@ TEST(RtspClock, ReportsBeforeTheRateIsKnownTeachNoDelay) {
   }
 }
 
+// Other programs take the processor for seconds: all pictures of such a time are late alike.
+TEST(RtspClock, ABusyHostIsNotTakenForStampsThatLie) {
+  int by_reports = 0, all = 0, lies = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RtspWorld world;
+    world.random.seed(seed);
+    world.delay_s = 0.05;
+    world.first_report_s = 2.0;
+    RtspClock clock(
+        {.delay_s = 0.06, .delay_sd_s = 0.1, .report_delay_s = 0.0, .report_sd_s = 0.02});
+    double held_s = 0.0, until_s = 0.0;
+    for (double since_s = 0.0; since_s < 30.0; since_s += 0.04) {
+      if (since_s >= until_s) {
+        held_s = std::exponential_distribution<double>(1.0 / 0.1)(world.random);
+        until_s += std::uniform_real_distribution<double>(1.0, 4.0)(world.random);
+      }
+      RtspStamp picture = world.picture(world.start_s + since_s);
+      picture.arrival_s += held_s;
+      const FrameTime time = clock.stamp(picture, kUtcMinusMonotonic_ns);
+      lies += std::abs(clock.rate().value_or(1.0) - 1.0) > 5e-3 ? 1 : 0;
+      if (since_s < 2.0) continue;
+      by_reports += time.source == StampSource::kCamera ? 1 : 0;
+      ++all;
+    }
+  }
+  EXPECT_GT(by_reports, 0.97 * all);
+  EXPECT_LT(lies, 0.02 * all);
+}
+
 TEST(RtspClock, ARateThatIsKnownStaysKnown) {
   RtspWorld world;
   world.stamp_rate = 0.84;
