@@ -22,6 +22,7 @@ Tracklet::Tracklet(long id, const Detection& detection, double image_width_px)
       rest_(detection.pixel),
       star_(detection.pixel),
       first_pixel_(detection.pixel),
+      marked_pixel_(detection.pixel),
       measured_pixel_(detection.pixel),
       measured_sd_px_(detection.sd_px()),
       measured_size_px_(detection.size_px),
@@ -66,12 +67,13 @@ void Tracklet::predict(const Eigen::Matrix3d& motion, double interval_s,
   measure_way(interval_s);
 }
 
-// In steps of a moment, so that the jitter of single images does not lengthen the path.
+// In steps of a moment, so that the jitter of single images does not lengthen the paths.
 void Tracklet::measure_way(double interval_s) {
   constexpr double kStep_s = 0.2, kRest_s = 3.0;
   if ((marked_s_ += interval_s) >= kStep_s) {
     path_px_ += (pixel_ - mark_).norm();
-    mark_ = pixel_;
+    scene_path_px_ += (mark_ - marked_pixel_).norm();
+    mark_ = marked_pixel_ = pixel_;
     marked_s_ = 0.0;
   }
   if ((rested_s_ += interval_s) >= kRest_s) {
@@ -82,8 +84,8 @@ void Tracklet::measure_way(double interval_s) {
 }
 
 void Tracklet::forget_way() {
-  origin_ = mark_ = rest_ = star_ = first_pixel_ = pixel_;
-  path_px_ = reach_px_ = rested_s_ = marked_s_ = 0.0;
+  origin_ = mark_ = rest_ = star_ = first_pixel_ = marked_pixel_ = pixel_;
+  path_px_ = scene_path_px_ = reach_px_ = rested_s_ = marked_s_ = 0.0;
   rests_ = false;
 }
 

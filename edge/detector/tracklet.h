@@ -74,6 +74,8 @@ class Tracklet {
   // scene_shift_px(): how far the scene has moved in the image since the tracklet began.
   // reach_px(): its largest distance so far from the pixel where it began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
+  // The length of the scene's path in the image at the tracklet, since it began.
+  double scene_path_px() const { return scene_path_px_ + (mark_ - marked_pixel_).norm(); }
   double reach_px() const { return reach_px_; }
   // The tracklet's distance from an imagined star, which was at the tracklet's first place when the
   // tracklet began.
@@ -98,7 +100,8 @@ class Tracklet {
   Eigen::Vector2d origin_, mark_, rest_;
   // Present place of an imagined star that was at the tracklet's first place.
   Eigen::Vector2d star_;
-  Eigen::Vector2d first_pixel_;  // the pixel where it began
+  Eigen::Vector2d first_pixel_;   // the pixel where it began
+  Eigen::Vector2d marked_pixel_;  // the pixel where it was at the last mark
   Eigen::Vector2d measured_pixel_;
   double measured_sd_px_;
   Eigen::Vector2d measured_size_px_;
@@ -106,6 +109,7 @@ class Tracklet {
   double reach_px_ = 0.0;
   double marked_s_ = 0.0, rested_s_ = 0.0;  // age of mark_; age of rest_
   double path_px_ = 0.0;                    // length of the path up to mark_
+  double scene_path_px_ = 0.0;              // length of the scene's path up to the last mark
   Eigen::Matrix2d covariance_;              // of position and velocity; the same for both axes
   double acceleration_px_s2_;               // standard deviation of the acceleration
   double signal_to_noise_;

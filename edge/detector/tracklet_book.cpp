@@ -14,6 +14,8 @@ constexpr double kGate = 16.0;      // squared standard deviations
 constexpr double kReserve = 6.0;    // [log] that a confirmed tracklet keeps for misses
 constexpr double kRejected = -2.5;  // [log] the test's lower bound
 constexpr int kStackImages = VelocityStack::kImages;  // from one detection by a stack to the next
+// [px] of the scene in the image. A smaller motion tells nothing: it may be the estimate's error.
+constexpr double kTold_px = 4.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -108,12 +110,19 @@ bool TrackletBook::crowded(const Eigen::Vector2d& pixel) const {
 // While the camera turns, what moves along with the scene is a part of it, and what stays where it
 // is in the image is a part of the camera: a speck on the lens, a burnt-in text.
 bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
-  constexpr double kTold_px = 4.0;   // a smaller turn tells nothing: the motion's own error
   constexpr double kAlong = 0.2;     // of the turn: parallax, and the error again
   constexpr double kFixed_px = 1.5;  // no controller holds a target as still as that
   const double shift_px = tracklet.scene_shift_px();
   if (shift_px < kTold_px) return false;
   return tracklet.way_px() < kTold_px / 2.0 + kAlong * shift_px || tracklet.reach_px() < kFixed_px;
+}
+
+// While the camera moves, the error of its motion adds up, and a scene at several distances shows
+// parallax: its parts creep.
+bool TrackletBook::creeps(const Tracklet& tracklet) const {
+  constexpr double kLeastSpeed = 0.02;  // of the image's width per second
+  return tracklet.scene_path_px() > kTold_px &&
+         tracklet.way_px() < kLeastSpeed * image_.width * tracklet.age_s();
 }
 
 // What stands still in front of the ground is a part of it: foliage, a stone, an edge of a
@@ -122,6 +131,7 @@ bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
   if (belongs_to_scene_or_camera(tracklet)) return false;
   if (tracklet.path()) return true;  // a stack shows only what moves on a straight path
   if (tracklet.mostly_clear() && !crowded(tracklet.pixel())) return true;
+  if (creeps(tracklet)) return false;
   const double way_px = tracklet.way_px();
   return way_px > 5.0 + 0.5 * tracklet.size_px().minCoeff() &&
          way_px > config_.least_directness * tracklet.path_px();

@@ -53,6 +53,7 @@ class TrackletBook {
   bool may_be_star(const Tracklet& tracklet) const;
   bool crowded(const Eigen::Vector2d& pixel) const;
   bool belongs_to_scene_or_camera(const Tracklet& tracklet) const;
+  bool creeps(const Tracklet& tracklet) const;
   bool moves_or_flies(const Tracklet& tracklet) const;
   bool hopeless(const Tracklet& tracklet) const;
 

@@ -189,6 +189,28 @@ TEST(TrackletBook, WhileTheCameraTurnsPartsOfSceneAndCameraAreNoObjects) {
   EXPECT_EQ(confirmed_in_turn(0.0, 0.0), 1) << "hovers, and the camera rests";
 }
 
+// A spot against the ground that moves `own_px` an image relative to the scene, while the scene
+// moves `scene_px` an image to and fro in the image.
+long confirmed_in_sway(double scene_px, double own_px) {
+  TrackletBook book(TrackletConfig{}, kView);
+  double x = 300.0;
+  for (int image = 0; image < 90; ++image) {
+    Eigen::Matrix3d motion = kStill;
+    motion(0, 2) = image / 15 % 2 == 0 ? scene_px : -scene_px;
+    x += motion(0, 2) + own_px;
+    Detection detection = clear_spot(x, 200.0);
+    detection.clear = false;
+    book.advance({detection}, motion, kTick_s);
+  }
+  return confirmed(book);
+}
+
+TEST(TrackletBook, WhileTheCameraMovesWhatCreepsBeforeTheGroundIsNoObject) {
+  EXPECT_EQ(confirmed_in_sway(0.5, 0.3), 0) << "creeps";
+  EXPECT_EQ(confirmed_in_sway(0.0, 0.3), 1) << "the camera rests";
+  EXPECT_EQ(confirmed_in_sway(0.5, 1.0), 1) << "travels";
+}
+
 TEST(TrackletBook, WhatFlewIsNotDoubtedWhenItHoversBeforeTheGround) {
   TrackletBook book(TrackletConfig{}, kView);
   for (int image = 0; image < 240; ++image) {
