@@ -11,7 +11,9 @@
 namespace ols::fusion {
 namespace {
 
-constexpr std::size_t kLeastSizes = 8;  // fewer determine no flicker
+// Of fewer outlines, a bird's are alike by chance more often than the table's densities say.
+constexpr std::size_t kLeastOutlines = 5;
+constexpr std::size_t kFlicker = 4;  // its place among the features
 constexpr int kKinds = static_cast<int>(std::size(kClassTable));
 constexpr const Kind& kAnything = kClassTable[kKinds - 1];
 static_assert(std::string_view(kAnything.name) == "anything");
@@ -49,42 +51,64 @@ double log_likelihood(const Kind& kind, const Features& seen) {
   return log_sum(logs.data(), 2);
 }
 
-// Relative variance of one side of the outline, minus that of its noise. The relative noise of both
-// sides is the same. Sizes without a noise were measured in another way, and are left out.
-Measured flicker_of(const std::vector<SeenSize>& sizes, double SeenSize::*side) {
-  std::vector<SeenSize> outlines;
+// Only the sizes with a noise. Those without were measured in another way.
+StationSizes outlines_of(const StationSizes& sizes) {
+  StationSizes outlines;
   std::ranges::copy_if(sizes, std::back_inserter(outlines),
                        [](const SeenSize& one) { return one.noise_m > 0.0; });
+  return outlines;
+}
+
+// The relative variance that noise causes in outlines; the same for both sides.
+double noise_of(const StationSizes& outlines) {
+  double noise = 0.0;
+  for (const SeenSize& one : outlines) noise += std::pow(one.noise_m / one.value_m, 2);
+  return noise / static_cast<double>(outlines.size());
+}
+
+// Relative variance of one side of the outlines, minus that of its noise.
+Measured flicker_of(const StationSizes& outlines, double SeenSize::*side) {
   const auto count = static_cast<double>(outlines.size());
-  double sum = 0.0, squares = 0.0, noise = 0.0;
+  double sum = 0.0, squares = 0.0;
   for (const SeenSize& one : outlines) sum += one.*side;
   const double mean = sum / count;
-  if (outlines.size() < kLeastSizes || mean <= 0.0) return {};
-  for (const SeenSize& one : outlines) {
-    squares += std::pow(one.*side / mean - 1.0, 2);
-    noise += std::pow(one.noise_m / one.value_m, 2);
-  }
-  const double own = noise / count, flicker = squares / (count - 1.0) - own;
+  if (mean <= 0.0) return {};
+  for (const SeenSize& one : outlines) squares += std::pow(one.*side / mean - 1.0, 2);
+  const double own = noise_of(outlines), flicker = squares / (count - 1.0) - own;
   const double variance = own * own + 2.0 * own * std::max(flicker, 0.0);
   return {flicker, std::max(std::sqrt(2.0 / (count - 1.0) * variance), 1e-6)};
 }
 
-// The sizes are those of one second. Their mean is the object's size, their variation its flicker.
-void see_sizes(const std::vector<SeenSize>& sizes, ClassLook& look) {
-  const auto count = static_cast<double>(sizes.size());
-  if (sizes.empty()) return;
+Measured flicker_of(const std::vector<StationSizes>& by_station) {
+  StationSizes clearest;
+  for (const StationSizes& sizes : by_station) {
+    StationSizes outlines = outlines_of(sizes);
+    if (outlines.size() < kLeastOutlines) continue;
+    if (clearest.empty() || noise_of(outlines) < noise_of(clearest)) clearest = std::move(outlines);
+  }
+  if (clearest.empty()) return {};
+  const Measured along = flicker_of(clearest, &SeenSize::value_m);
+  const Measured across = flicker_of(clearest, &SeenSize::across_m);
+  return {along.value + across.value, std::hypot(along.sd, across.sd)};
+}
+
+Measured size_of(const std::vector<StationSizes>& by_station) {
+  const StationSizes* best = nullptr;
+  for (const StationSizes& sizes : by_station) {
+    if (sizes.empty()) continue;
+    if (best == nullptr || sizes.back().sd_m < best->back().sd_m) best = &sizes;
+  }
+  if (best == nullptr) return {};
+  const auto count = static_cast<double>(best->size());
   double sum = 0.0, variance = 0.0;
-  for (const SeenSize& one : sizes) {
+  for (const SeenSize& one : *best) {
     sum += one.value_m;
     variance += one.sd_m * one.sd_m;
   }
   const double mean = sum / count;
-  if (mean <= 0.0) return;
+  if (mean <= 0.0) return {};
   // Errors of a box are not independent from image to image: the mean is no better than one.
-  look.size_m = {mean, std::max(std::sqrt(variance / count), 1e-6)};
-  const Measured along = flicker_of(sizes, &SeenSize::value_m);
-  const Measured across = flicker_of(sizes, &SeenSize::across_m);
-  look.flicker = {along.value + across.value, std::hypot(along.sd, across.sd)};
+  return {mean, std::max(std::sqrt(variance / count), 1e-6)};
 }
 
 // The error may be as large as the height, so the slope at the height would not do: half the span
@@ -104,12 +128,19 @@ Features lasting_of(const Features& seen) {
   return lasting;
 }
 
+Features without_flicker(Features seen) {
+  seen[kFlicker] = {};
+  return seen;
+}
+
 }  // namespace
 
-ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
+ClassLook look_at(const std::vector<StationSizes>& by_station,
+                  const std::array<double, 3>& velocity_m_s,
                   const std::array<double, 3>& before_m_s, double apart_s, double velocity_sd_m_s) {
   ClassLook look;
-  see_sizes(sizes, look);
+  look.size_m = size_of(by_station);
+  look.flicker = flicker_of(by_station);
   look.speed_m_s = {std::hypot(velocity_m_s[0], velocity_m_s[1]), velocity_sd_m_s};
   look.climb_m_s = {velocity_m_s[2], velocity_sd_m_s};
   if (apart_s <= 0.0) return look;
@@ -149,24 +180,45 @@ void ClassPosterior::add(std::int64_t utime_us, const ClassLook& look) {
   if (last_us_ && utime_us <= *last_us_) return;
   const double since_s = last_us_ ? 1e-6 * static_cast<double>(utime_us - *last_us_) : 0.0;
   const double kept = std::exp(-since_s / kMemory_s);
-  weight_ = weight_ * kept + 1.0;
+  const bool beats = seen[kFlicker].sd > 0.0;
+  for (Sum* sum : {&lasting_, &moving_, &beating_}) {
+    sum->fade(kept);
+    if (sum == &beating_ && !beats) continue;
+    if (sum->weight == 0.0) sum->first_us = utime_us;
+    sum->last_us = utime_us;
+    sum->weight += 1.0;
+  }
   for (int i = 0; i < kKinds; ++i) {
-    sum_[i] = sum_[i] * kept + log_likelihood(kClassTable[i], seen);
-    lasting_[i] = lasting_[i] * kept + log_likelihood(kClassTable[i], lasting_of(seen));
+    const double all = log_likelihood(kClassTable[i], seen);
+    const double steady = log_likelihood(kClassTable[i], without_flicker(seen));
+    const double lasting = log_likelihood(kClassTable[i], lasting_of(seen));
+    lasting_.log[i] += lasting;
+    moving_.log[i] += steady - lasting;
+    beating_.log[i] += all - steady;  // 0 if the flicker is unknown
   }
   if (!first_us_) first_us_ = utime_us;
   last_us_ = utime_us;
 }
 
+void ClassPosterior::Sum::fade(double kept) {
+  weight *= kept;
+  for (double& one : log) one *= kept;
+}
+
+double ClassPosterior::Sum::looks(std::int64_t now_us) const {
+  const double seen_s = 1e-6 * static_cast<double>(last_us - first_us);
+  const double since_s = 1e-6 * static_cast<double>(now_us - last_us);
+  return std::min(1.0 + seen_s / kCorrelation_s, kMostLooks) * std::exp(-since_s / kMemory_s);
+}
+
 std::array<double, kObjectClasses> ClassPosterior::posterior() const {
   std::array<double, kObjectClasses> of_classes{};
   if (!last_us_) return of_classes;
-  const double seen_s = 1e-6 * static_cast<double>(*last_us_ - *first_us_);
-  const double looks = std::min(1.0 + seen_s / kCorrelation_s, kMostLooks);
   std::array<double, kKinds> log{};
-  for (int i = 0; i < kKinds; ++i)
-    log[i] =
-        std::log(kClassTable[i].prior) + (lasting_[i] + looks * (sum_[i] - lasting_[i])) / weight_;
+  for (int i = 0; i < kKinds; ++i) {
+    log[i] = std::log(kClassTable[i].prior) + lasting_.mean(i);
+    for (const Sum* sum : {&moving_, &beating_}) log[i] += sum->looks(*last_us_) * sum->mean(i);
+  }
   const double all = log_sum(log.data(), kKinds);
   for (int i = 0; i < kKinds; ++i)
     of_classes[static_cast<int>(kClassTable[i].object_class)] += std::exp(log[i] - all);

@@ -14,8 +14,10 @@
 // Their log-likelihoods are therefore averaged, and the average has the weight of N independent
 // looks. For the features that change little over an object's life (size, cruising speed, height),
 // N is 1. For the other features, given these, N is 1 + t / kCorrelation_s after t seconds, at most
-// kMostLooks. The weight of a look falls to 37 % in kMemory_s. Therefore, if a track passes to
-// another object, the class changes, too.
+// kMostLooks. The flicker has an average and a t of its own, over the looks in which it is known:
+// looks in which it is unknown do not make the known ones count less. The weight of a look falls to
+// 37 % in kMemory_s, and so does that of a flicker which is no longer seen. Therefore, if a track
+// passes to another object, the class changes, too.
 //
 // A target is 'unknown' until it has been looked at for a second and one class has a posterior of
 // at least 0.9. A look without a size is ignored, because motion alone does not distinguish a
@@ -59,10 +61,16 @@ struct ClassLook {
   Measured flicker;
 };
 
-// Makes a look from one station's sizes of the last second and from two velocities (east, north,
-// up): the present one, and before_m_s, which is apart_s older. velocity_sd_m_s: 1-sigma of each
-// component. The caller adds the height.
-ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
+// Sizes of the last second, measured by one station, in the order of time.
+using StationSizes = std::vector<SeenSize>;
+
+// Makes a look from the stations' sizes and from two velocities (east, north, up): the present one,
+// and before_m_s, which is apart_s older. velocity_sd_m_s: 1-sigma of each component. The size is
+// that of the station whose newest size is the most certain. The flicker is that of the station
+// whose outlines have the least noise: a station that sees the object before trees measures a size,
+// but no outlines. The caller adds the height.
+ClassLook look_at(const std::vector<StationSizes>& by_station,
+                  const std::array<double, 3>& velocity_m_s,
                   const std::array<double, 3>& before_m_s, double apart_s, double velocity_sd_m_s);
 
 inline constexpr int kFeatures = 6;
@@ -88,11 +96,22 @@ class ClassPosterior {
 
  private:
   static constexpr int kMostKinds = 12;
+  // Looks in which certain features are known, and for each kind the weighted sum of the
+  // log-likelihoods of these features.
+  struct Sum {
+    std::int64_t first_us = 0, last_us = 0;  // the first and the last of these looks
+    double weight = 0.0;
+    std::array<double, kMostKinds> log{};
+
+    void fade(double kept);
+    double mean(int kind) const { return weight > 0.0 ? log[kind] / weight : 0.0; }
+    // The number N of independent looks; less once the last of them is long ago.
+    double looks(std::int64_t now_us) const;
+  };
   std::optional<std::int64_t> first_us_, last_us_;
-  double weight_ = 0.0;
-  // Weighted sums of the log-likelihoods for each kind: of all features, and of size, speed and
-  // height alone.
-  std::array<double, kMostKinds> sum_{}, lasting_{};
+  // lasting_: size, speed and height. moving_: climb and acceleration, given the former. beating_:
+  // flicker, given all others.
+  Sum lasting_, moving_, beating_;
 };
 
 }  // namespace ols::fusion

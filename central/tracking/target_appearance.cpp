@@ -64,22 +64,19 @@ bool is_sighted(const BearingMeasurement& m) {
   return m.sighted.signal > 0.0 || m.sighted.size_rad > 0.0 || !m.sighted.class_probability.empty();
 }
 
-// What the station that measures the size best has seen within the last second.
-std::vector<SeenSize> best_sizes(const Track& track, const Eigen::Vector3d& p_ecef) {
-  std::vector<SeenSize> best;
+// What each station has seen within the last second.
+std::vector<StationSizes> sizes_of(const Track& track, const Eigen::Vector3d& p_ecef) {
+  std::vector<StationSizes> all;
   for (const auto& [station, bearings] : track.bearings) {
-    std::vector<SeenSize> sizes;
+    StationSizes& sizes = all.emplace_back();
     for (const BearingMeasurement& m : bearings) {
       if (m.sighted.size_rad <= 0.0 || m.sighted.size_sd_rad <= 0.0) continue;
       const double range_m = (p_ecef - m.sight.origin_ecef).norm();
-      const double sd_m = range_m * m.sighted.size_sd_rad;
-      sizes.push_back({range_m * m.sighted.size_rad, sd_m, range_m * m.sighted.size_noise_rad,
-                       range_m * m.sighted.across_rad});
+      sizes.push_back({range_m * m.sighted.size_rad, range_m * m.sighted.size_sd_rad,
+                       range_m * m.sighted.size_noise_rad, range_m * m.sighted.across_rad});
     }
-    if (sizes.empty()) continue;
-    if (best.empty() || sizes.back().sd_m < best.back().sd_m) best = std::move(sizes);
   }
-  return best;
+  return all;
 }
 
 // Where the land is unknown, it is taken as flat around the nearest station. If the object is below
@@ -128,7 +125,7 @@ void look_at_class(Track& track, const land::Surface* surface) {
   const double sd = std::sqrt(state.covariance.block<3, 3>(3, 3).trace() / 3.0);
   const std::int64_t apart_us = state.utime_us - before_us;
   // Velocities that are closer in time differ only by noise.
-  ClassLook look = look_at(best_sizes(track, position), enu(velocity), enu(before),
+  ClassLook look = look_at(sizes_of(track, position), enu(velocity), enu(before),
                            apart_us > kBefore_us / 2 ? seconds(apart_us) : 0.0, sd);
   look.height_m = height_of(track, state, surface);
   track.classes.add(state.utime_us, look);

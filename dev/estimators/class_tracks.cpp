@@ -137,7 +137,7 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
                      scale * object.across_m() * (1.0 + sd_m / size_m * normal(random))});
     if (image % kImagesALook != 0 || image <= kImageHz) continue;
     looks.push_back({image * 1'000'000LL / kImageHz,
-                     fusion::look_at({sizes.end() - kImageHz, sizes.end()}, v,
+                     fusion::look_at({{sizes.end() - kImageHz, sizes.end()}}, v,
                                      velocities[velocities.size() - 1 - kImageHz], 1.0,
                                      std::max(noise.speed_m_s, 1e-6))});
     looks.back().look.height_m = {object.height_m() + ground_m, std::max(noise.ground_m, 1e-6)};

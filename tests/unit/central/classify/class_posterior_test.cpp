@@ -76,13 +76,52 @@ TEST(ClassPosterior, FlickerIsWhatTheNoiseDoesNotExplain) {
     from_the_side.push_back({1.0, 0.25, 0.05, 0.5 + 0.15 * std::sin(2.0 * i)});
     steady.push_back({i % 2 == 0 ? 1.05 : 0.95, 0.25, 0.05, i % 2 == 0 ? 0.475 : 0.525});
   }
-  EXPECT_NEAR(look_at(beating, {}, {}, 0.0, 1.0).flicker.value, 0.045 - 0.0025, 0.005);
-  EXPECT_NEAR(look_at(steady, {}, {}, 0.0, 1.0).flicker.value, 0.0, 0.001);
-  EXPECT_NEAR(look_at(from_the_side, {}, {}, 0.0, 1.0).flicker.value, 0.045 - 0.005, 0.005);
-  EXPECT_NEAR(look_at(steady, {}, {}, 0.0, 1.0).size_m.sd, 0.25, 1e-9);
-  const double before = look_at(beating, {}, {}, 0.0, 1.0).flicker.value;
+  EXPECT_NEAR(look_at({beating}, {}, {}, 0.0, 1.0).flicker.value, 0.045 - 0.0025, 0.005);
+  EXPECT_NEAR(look_at({steady}, {}, {}, 0.0, 1.0).flicker.value, 0.0, 0.001);
+  EXPECT_NEAR(look_at({from_the_side}, {}, {}, 0.0, 1.0).flicker.value, 0.045 - 0.005, 0.005);
+  EXPECT_NEAR(look_at({steady}, {}, {}, 0.0, 1.0).size_m.sd, 0.25, 1e-9);
+  const double before = look_at({beating}, {}, {}, 0.0, 1.0).flicker.value;
   beating.push_back({2.0, 0.25, 0.0});
-  EXPECT_EQ(look_at(beating, {}, {}, 0.0, 1.0).flicker.value, before) << "of unknown noise";
+  EXPECT_EQ(look_at({beating}, {}, {}, 0.0, 1.0).flicker.value, before) << "of unknown noise";
+}
+
+TEST(ClassPosterior, FlickerIsOfTheStationWithTheLeastNoiseOfOutlines) {
+  StationSizes beating, noisy, without_outlines;
+  for (int i = 0; i < 5; ++i) {
+    const double size_m = 1.0 + 0.3 * std::sin(2.0 * i);
+    beating.push_back({size_m, 0.25, 0.01});
+    noisy.push_back({1.0, 0.2, 0.2});
+    without_outlines.push_back({1.2, 0.1, 0.0});
+  }
+  const double flicker = look_at({beating}, {}, {}, 0.0, 1.0).flicker.value;
+  const ClassLook look = look_at({noisy, beating, without_outlines}, {}, {}, 0.0, 1.0);
+  EXPECT_GT(flicker, 0.03);
+  EXPECT_EQ(look.flicker.value, flicker);
+  EXPECT_NEAR(look.size_m.value, 1.2, 1e-9) << "of the station whose size is the most certain";
+  beating.pop_back();
+  EXPECT_EQ(look_at({beating}, {}, {}, 0.0, 1.0).flicker.sd, 0.0) << "too few outlines";
+}
+
+TEST(ClassPosterior, LooksWithoutAFlickerTakeNoWeightFromThoseWithOne) {
+  const ClassLook known = look(0.8, 8.5, 0.0, 0.0);
+  ClassLook unknown = known;
+  unknown.flicker = {};
+  ClassPosterior seldom;
+  for (int i = 0; i <= 40; ++i) seldom.add(1 + i * 250'000LL, i % 8 == 0 ? known : unknown);
+  const auto always = after(10.0, known).posterior();
+  EXPECT_GT(always[static_cast<int>(ObjectClass::kDrone)], kSure);
+  for (int i = 0; i < kObjectClasses; ++i) EXPECT_NEAR(seldom.posterior()[i], always[i], 1e-9);
+}
+
+TEST(ClassPosterior, AFlickerThatIsNoLongerSeenIsForgotten) {
+  const ClassLook flapping = look(0.8, 8.5, 0.0, 0.08);
+  ClassLook unknown = flapping;
+  unknown.flicker = {};
+  ClassPosterior posterior = after(10.0, flapping);
+  ASSERT_EQ(posterior.belief().object_class, ObjectClass::kBird);
+  for (int i = 1; i <= 800; ++i) posterior.add(10'000'001 + i * 250'000LL, unknown);
+  const auto never = after(200.0, unknown).posterior();
+  for (int i = 0; i < kObjectClasses; ++i) EXPECT_NEAR(posterior.posterior()[i], never[i], 0.01);
 }
 
 TEST(ClassPosterior, AStrayLookMakesNoBirdOfADrone) {
