@@ -11,8 +11,10 @@
 namespace ols::fusion {
 namespace {
 
-// Of fewer outlines, a bird's are alike by chance more often than the table's densities say.
+// Of fewer outlines, a bird's are alike by chance more often than the table's densities say. Within
+// less time, the outline of a bird with 2 wing beats a second need not change.
 constexpr std::size_t kLeastOutlines = 5;
+constexpr double kLeastSpan_s = 0.5;
 constexpr std::size_t kFlicker = 4;  // its place among the features
 constexpr int kKinds = static_cast<int>(std::size(kClassTable));
 constexpr const Kind& kAnything = kClassTable[kKinds - 1];
@@ -59,6 +61,11 @@ StationSizes outlines_of(const StationSizes& sizes) {
   return outlines;
 }
 
+bool show_flicker(const StationSizes& outlines) {
+  return outlines.size() >= kLeastOutlines &&
+         outlines.back().time_s - outlines.front().time_s >= kLeastSpan_s;
+}
+
 // The relative variance that noise causes in outlines; the same for both sides.
 double noise_of(const StationSizes& outlines) {
   double noise = 0.0;
@@ -83,7 +90,7 @@ Measured flicker_of(const std::vector<StationSizes>& by_station) {
   StationSizes clearest;
   for (const StationSizes& sizes : by_station) {
     StationSizes outlines = outlines_of(sizes);
-    if (outlines.size() < kLeastOutlines) continue;
+    if (!show_flicker(outlines)) continue;
     if (clearest.empty() || noise_of(outlines) < noise_of(clearest)) clearest = std::move(outlines);
   }
   if (clearest.empty()) return {};

@@ -45,9 +45,10 @@ struct Measured {
 
 // The size of an object in one image [m]. value_m: its largest extent. sd_m: 1-sigma of the extent.
 // noise_m: the part of sd_m that is independent from image to image; 0 if unknown. across_m: the
-// smaller side of the upright box, with the same relative noise; 0 if unknown.
+// smaller side of the upright box, with the same relative noise; 0 if unknown. time_s: of the
+// image, counted from any instant.
 struct SeenSize {
-  double value_m = 0.0, sd_m = 0.0, noise_m = 0.0, across_m = 0.0;
+  double value_m = 0.0, sd_m = 0.0, noise_m = 0.0, across_m = 0.0, time_s = 0.0;
 };
 
 struct ClassLook {

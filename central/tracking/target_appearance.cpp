@@ -64,16 +64,20 @@ bool is_sighted(const BearingMeasurement& m) {
   return m.sighted.signal > 0.0 || m.sighted.size_rad > 0.0 || !m.sighted.class_probability.empty();
 }
 
-// What each station has seen within the last second.
-std::vector<StationSizes> sizes_of(const Track& track, const Eigen::Vector3d& p_ecef) {
+// What each station has seen within the last second. (The track also has the last bearings of a
+// station that no longer sees it.)
+std::vector<StationSizes> sizes_of(const Track& track, const KinematicState& state) {
+  constexpr double kLatest_s = 1.0;
   std::vector<StationSizes> all;
   for (const auto& [station, bearings] : track.bearings) {
     StationSizes& sizes = all.emplace_back();
     for (const BearingMeasurement& m : bearings) {
       if (m.sighted.size_rad <= 0.0 || m.sighted.size_sd_rad <= 0.0) continue;
-      const double range_m = (p_ecef - m.sight.origin_ecef).norm();
+      const double time_s = seconds(m.utime_us - state.utime_us);
+      if (time_s < -kLatest_s) continue;
+      const double range_m = (state.mean.head<3>() - m.sight.origin_ecef).norm();
       sizes.push_back({range_m * m.sighted.size_rad, range_m * m.sighted.size_sd_rad,
-                       range_m * m.sighted.size_noise_rad, range_m * m.sighted.across_rad});
+                       range_m * m.sighted.size_noise_rad, range_m * m.sighted.across_rad, time_s});
     }
   }
   return all;
@@ -125,7 +129,7 @@ void look_at_class(Track& track, const land::Surface* surface) {
   const double sd = std::sqrt(state.covariance.block<3, 3>(3, 3).trace() / 3.0);
   const std::int64_t apart_us = state.utime_us - before_us;
   // Velocities that are closer in time differ only by noise.
-  ClassLook look = look_at(sizes_of(track, position), enu(velocity), enu(before),
+  ClassLook look = look_at(sizes_of(track, state), enu(velocity), enu(before),
                            apart_us > kBefore_us / 2 ? seconds(apart_us) : 0.0, sd);
   look.height_m = height_of(track, state, surface);
   track.classes.add(state.utime_us, look);

@@ -134,7 +134,8 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
     const double size_m = scale * object.size_m();
     const double sd_m = std::max(size_m * noise.size, 1e-6);  // 0 would be unknown
     sizes.push_back({size_m + sd_m * normal(random), sd_m, sd_m,
-                     scale * object.across_m() * (1.0 + sd_m / size_m * normal(random))});
+                     scale * object.across_m() * (1.0 + sd_m / size_m * normal(random)),
+                     image * kDt_s});
     if (image % kImagesALook != 0 || image <= kImageHz) continue;
     looks.push_back({image * 1'000'000LL / kImageHz,
                      fusion::look_at({{sizes.end() - kImageHz, sizes.end()}}, v,

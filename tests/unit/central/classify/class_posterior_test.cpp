@@ -72,16 +72,17 @@ TEST(ClassPosterior, WhatAnObjectKeepsForItsLifeCountsOnce) {
 TEST(ClassPosterior, FlickerIsWhatTheNoiseDoesNotExplain) {
   std::vector<SeenSize> beating, steady, from_the_side;
   for (int i = 0; i < 20; ++i) {
-    beating.push_back({1.0 + 0.3 * std::sin(2.0 * i), 0.25, 0.05});
-    from_the_side.push_back({1.0, 0.25, 0.05, 0.5 + 0.15 * std::sin(2.0 * i)});
-    steady.push_back({i % 2 == 0 ? 1.05 : 0.95, 0.25, 0.05, i % 2 == 0 ? 0.475 : 0.525});
+    const double at_s = 0.05 * i;
+    beating.push_back({1.0 + 0.3 * std::sin(2.0 * i), 0.25, 0.05, 0.0, at_s});
+    from_the_side.push_back({1.0, 0.25, 0.05, 0.5 + 0.15 * std::sin(2.0 * i), at_s});
+    steady.push_back({i % 2 == 0 ? 1.05 : 0.95, 0.25, 0.05, i % 2 == 0 ? 0.475 : 0.525, at_s});
   }
   EXPECT_NEAR(look_at({beating}, {}, {}, 0.0, 1.0).flicker.value, 0.045 - 0.0025, 0.005);
   EXPECT_NEAR(look_at({steady}, {}, {}, 0.0, 1.0).flicker.value, 0.0, 0.001);
   EXPECT_NEAR(look_at({from_the_side}, {}, {}, 0.0, 1.0).flicker.value, 0.045 - 0.005, 0.005);
   EXPECT_NEAR(look_at({steady}, {}, {}, 0.0, 1.0).size_m.sd, 0.25, 1e-9);
   const double before = look_at({beating}, {}, {}, 0.0, 1.0).flicker.value;
-  beating.push_back({2.0, 0.25, 0.0});
+  beating.push_back({2.0, 0.25, 0.0, 0.0, 1.0});
   EXPECT_EQ(look_at({beating}, {}, {}, 0.0, 1.0).flicker.value, before) << "of unknown noise";
 }
 
@@ -89,17 +90,19 @@ TEST(ClassPosterior, FlickerIsOfTheStationWithTheLeastNoiseOfOutlines) {
   StationSizes beating, noisy, without_outlines;
   for (int i = 0; i < 5; ++i) {
     const double size_m = 1.0 + 0.3 * std::sin(2.0 * i);
-    beating.push_back({size_m, 0.25, 0.01});
-    noisy.push_back({1.0, 0.2, 0.2});
-    without_outlines.push_back({1.2, 0.1, 0.0});
+    beating.push_back({size_m, 0.25, 0.01, 0.0, 0.15 * i});
+    noisy.push_back({1.0, 0.2, 0.2, 0.0, 0.15 * i});
+    without_outlines.push_back({1.2, 0.1, 0.0, 0.0, 0.15 * i});
   }
   const double flicker = look_at({beating}, {}, {}, 0.0, 1.0).flicker.value;
   const ClassLook look = look_at({noisy, beating, without_outlines}, {}, {}, 0.0, 1.0);
   EXPECT_GT(flicker, 0.03);
   EXPECT_EQ(look.flicker.value, flicker);
   EXPECT_NEAR(look.size_m.value, 1.2, 1e-9) << "of the station whose size is the most certain";
-  beating.pop_back();
-  EXPECT_EQ(look_at({beating}, {}, {}, 0.0, 1.0).flicker.sd, 0.0) << "too few outlines";
+  StationSizes few(beating.begin(), beating.end() - 1), within_less = beating;
+  within_less.back().time_s = 0.46;
+  for (const StationSizes& sizes : {few, within_less})
+    EXPECT_EQ(look_at({sizes}, {}, {}, 0.0, 1.0).flicker.sd, 0.0);
 }
 
 TEST(ClassPosterior, LooksWithoutAFlickerTakeNoWeightFromThoseWithOne) {

@@ -144,8 +144,10 @@ Appearance flown(const Eigen::Vector3d& velocity_enu_m_s, double size_rad = 0.35
   const Eigen::Vector3d there = test::site().to_ecef(kThere_enu);
   EXPECT_EQ(appearance_of(track, there).object_class, ObjectClass::kUnknown);
   for (int i = 0; i <= 25; ++i) {
+    const std::int64_t utime_us = 1 + i * 200'000LL;
+    for (auto& [station, own] : track.bearings) own.back().utime_us = utime_us;
     track.filter = TrackFilter(
-        {}, 1 + i * 200'000LL,
+        {}, utime_us,
         {.p_ecef = there,
          .v_ecef = test::site().to_ecef(velocity_enu_m_s) - test::site().to_ecef({0.0, 0.0, 0.0}),
          .position_sd_m = 1.0,
@@ -165,6 +167,19 @@ TEST(TargetAppearance, ClassIsThatOfTheTracksLifeWhereverItFlies) {
   EXPECT_GT(std::abs(flown({0.0, 0.0, 150.0}).class_probability - east.class_probability), 1e-5);
 }
 
+TEST(TargetAppearance, AStationThatNoLongerSeesTheTargetSaysNothingOfItsClass) {
+  const Sighted seen{.size_rad = 0.01, .size_sd_rad = 0.001};
+  Track track = seen_by_two(seen, seen);
+  const auto is_looked_at = [&](std::int64_t utime_us) {
+    track.filter = TrackFilter({}, utime_us, {.p_ecef = test::site().to_ecef(kThere_enu)});
+    track.classes = {};
+    look_at_class(track, nullptr);
+    return track.classes.has_looked();
+  };
+  EXPECT_TRUE(is_looked_at(900'000));
+  EXPECT_FALSE(is_looked_at(1'200'000));
+}
+
 // 9 m long, at 20 m/s.
 TEST(TargetAppearance, WhatDrivesOnAHillIsNoHelicopter) {
   const Land hill([](double, double) { return 349.0; }, 1.0, test::site().origin());
@@ -181,8 +196,10 @@ TEST(TargetAppearance, BelowAStationOnAHillTheHeightIsUnknown) {
   seen.sighted = {.size_rad = 0.002, .size_sd_rad = 0.0002};
   track.bearings["hill"].push_back(seen);
   for (int i = 0; i <= 25; ++i) {
+    const std::int64_t utime_us = 1 + i * 200'000LL;
+    for (auto& [station, own] : track.bearings) own.back().utime_us = utime_us;
     track.filter = TrackFilter(
-        {}, 1 + i * 200'000LL,
+        {}, utime_us,
         {.p_ecef = there,
          .v_ecef = test::site().to_ecef({1.0, 0.0, 4.0}) - test::site().to_ecef({0.0, 0.0, 0.0}),
          .position_sd_m = 1.0,
