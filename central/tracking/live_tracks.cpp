@@ -17,6 +17,7 @@ namespace ols::fusion {
 namespace {
 
 constexpr double kConfirmed = 0.95, kDeleted = 0.05;  // probability of its existence
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -53,7 +54,6 @@ struct Choice {
 Choice choose(const Eigen::MatrixXd& cost, double unassigned, double least_difference) {
   Choice choice{assign(cost, unassigned), {}};
   const double least = cost_of(choice.column, cost, unassigned);
-  constexpr double kNever = std::numeric_limits<double>::infinity();
   for (Eigen::Index row = 0; row < cost.rows(); ++row) {
     const int column = choice.column[static_cast<std::size_t>(row)];
     const bool has_others = (cost.row(row).array() < kNever).count() > 1;
@@ -86,40 +86,54 @@ std::vector<Association> LiveTracks::add(std::span<const BearingMeasurement> ima
   return all;
 }
 
+// Only the tracks that may take one of the bearings have a column.
 void LiveTracks::give(std::span<const BearingMeasurement> image, bool confirmed,
                       std::vector<std::optional<Association>>& fates) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const auto rows = static_cast<Eigen::Index>(image.size());
-  Eigen::MatrixXd cost =
-      Eigen::MatrixXd::Constant(rows, static_cast<Eigen::Index>(tracks_.size()), kNever);
   std::vector<std::vector<Candidate>> near(image.size());
+  std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < image.size(); ++i) {
     if (fates[i]) continue;
     near[i] = candidates(image[i], confirmed);
-    const Track* const own = identities_.follower(image[i], tracks_);
-    const auto is_own = [&](const Candidate& c) { return &tracks_[c.track] == own; };
-    const bool has_own = std::ranges::any_of(near[i], is_own);
-    for (const Candidate& candidate : near[i]) {
-      if (has_own && !is_own(candidate)) continue;
-      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(candidate.track)) =
-          candidate.seen.nis;
-    }
+    for (const Candidate& candidate : near[i]) columns.push_back(candidate.track);
   }
-  const Choice choice = choose(cost, 2.0 * config_.filter.gate_nis, config_.ambiguous_nis);
+  if (columns.empty()) return;
+  std::ranges::sort(columns);
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  const Choice choice =
+      choose(costs(image, near, columns), 2.0 * config_.filter.gate_nis, config_.ambiguous_nis);
   for (std::size_t i = 0; i < image.size(); ++i) {
     if (near[i].empty()) continue;
     if (confirmed) note_duplicates(image[i], near[i]);
-    const int column = choice.column[i];
-    if (column < 0) continue;
+    if (choice.column[i] < 0) continue;
     if (confirmed && choice.is_ambiguous[i]) {
       ++counts_.ambiguous;
       fates[i] = {Association::Kind::kAmbiguous, 0};
       continue;
     }
-    const auto chosen =
-        std::ranges::find(near[i], static_cast<std::size_t>(column), &Candidate::track);
-    fates[i] = give_to(tracks_[chosen->track], image[i], &chosen->seen);
+    const std::size_t track = columns[static_cast<std::size_t>(choice.column[i])];
+    const auto chosen = std::ranges::find(near[i], track, &Candidate::track);
+    fates[i] = give_to(tracks_[track], image[i], &chosen->seen);
   }
+}
+
+// A bearing of an object that the station follows is given to no other track.
+Eigen::MatrixXd LiveTracks::costs(std::span<const BearingMeasurement> image,
+                                  std::span<const std::vector<Candidate>> near,
+                                  std::span<const std::size_t> columns) {
+  Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(image.size()),
+                                                   std::ssize(columns), kNever);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (near[i].empty()) continue;
+    const Track* const own = identities_.follower(image[i], tracks_);
+    const auto is_own = [&](const Candidate& c) { return &tracks_[c.track] == own; };
+    const bool has_own = std::ranges::any_of(near[i], is_own);
+    for (const Candidate& candidate : near[i]) {
+      if (has_own && !is_own(candidate)) continue;
+      const auto column = std::ranges::lower_bound(columns, candidate.track) - columns.begin();
+      cost(static_cast<Eigen::Index>(i), column) = candidate.seen.nis;
+    }
+  }
+  return cost;
 }
 
 void LiveTracks::note_clutter(std::span<const BearingMeasurement> image,

@@ -81,6 +81,10 @@ class LiveTracks : public TrackManager {
   // Assigns the bearings without a fate to the confirmed tracks, or to the tentative ones.
   void give(std::span<const BearingMeasurement> image, bool confirmed,
             std::vector<std::optional<Association>>& fates);
+  // The NIS of each bearing with each of these tracks; infinite if the track cannot take it.
+  Eigen::MatrixXd costs(std::span<const BearingMeasurement> image,
+                        std::span<const std::vector<Candidate>> near,
+                        std::span<const std::size_t> columns);
   Association give_up(const BearingMeasurement& measurement, bool may_begin);
   void judge_existence(std::span<const BearingMeasurement> image);
   bool should_show(const BearingMeasurement& in_image, const Track& track) const;
