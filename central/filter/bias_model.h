@@ -28,8 +28,8 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
+#include <unordered_map>
 
 #include "geometry/direction.h"
 
@@ -158,7 +158,7 @@ class BiasModel {
 
   BiasModelConfig config_;
   const BiasModel* known_ = nullptr;  // the model on which this one builds, if it holds evidence
-  std::map<std::string, Seen, std::less<>> stations_;
+  std::unordered_map<std::string, Seen> stations_;
   // Sums over the stations that declare no bias: of the weights, and of the squared biases relative
   // to the noise variance.
   Eigen::Array2d common_weight_ = Eigen::Array2d::Zero();
