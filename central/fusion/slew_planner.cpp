@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "central/measurement/activity.h"
 #include "central/measurement/time_span.h"
@@ -22,24 +23,17 @@ void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
   d.elevation_rad = elevation;
 }
 
-// A tracker there, even a coasting one, has had a bearing within the last second.
-bool sees_by_detector(const Track& track, const std::string& station, std::int64_t now_us) {
-  return track.bearings.contains(station) && tracker_of(track, station, now_us) == nullptr;
-}
-
-bool is_designated_there(const Track& track, const std::string& station, std::int64_t now_us) {
-  const BearingMeasurement* own = tracker_of(track, station, now_us);
-  return own != nullptr && !own->is_acquired;
-}
-
 std::string cue_key(const CueAim& aim) { return "cue/" + aim.cue.id; }
 std::string line_key(const CueAim& aim) { return cue_key(aim) + "/line"; }
 std::string line_key(const CueRay& ray) { return ray.station + "/" + std::to_string(ray.track_id); }
 
 }  // namespace
 
-const BearingMeasurement* newest_of(const std::vector<BearingMeasurement>& bearings,
+const BearingMeasurement* newest_of(const Track& track,
+                                    const std::vector<BearingMeasurement>& bearings,
                                     bool is_tracklet, std::int64_t now_us) {
+  const std::int64_t last_us = is_tracklet ? track.last.tracklet_us : track.last.tracker_us;
+  if (seconds(now_us - last_us) >= Activity::kFollowsS) return nullptr;
   const auto newest = std::ranges::find(bearings.rbegin(), bearings.rend(), is_tracklet,
                                         &BearingMeasurement::is_tracklet);
   const bool is_there =
@@ -50,7 +44,7 @@ const BearingMeasurement* newest_of(const std::vector<BearingMeasurement>& beari
 const BearingMeasurement* tracker_of(const Track& track, const std::string& station,
                                      std::int64_t now_us) {
   const auto own = track.bearings.find(station);
-  return own == track.bearings.end() ? nullptr : newest_of(own->second, false, now_us);
+  return own == track.bearings.end() ? nullptr : newest_of(track, own->second, false, now_us);
 }
 
 // The arc length of the spiral is the square of the angle over 4 pi; its turns are a unit apart.
@@ -99,8 +93,9 @@ SlewPlanner::Search& SlewPlanner::search_of(const std::string& station, std::int
 void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> stations,
                            const std::vector<Track>& tracks) const {
   std::vector<AllocatedTarget> targets;
-  const std::vector<const Track*> with_position = targets_of(round, tracks);
-  for (const Track* track : with_position) {
+  std::unordered_map<std::int64_t, const Track*> with_position;
+  for (const Track* track : targets_of(round, tracks)) {
+    with_position[track->id] = track;
     const auto priority = round.priority.find(track->id);
     targets.push_back({track->id, track->filter.position(),
                        priority == round.priority.end() ? 1.0 : priority->second,
@@ -108,14 +103,16 @@ void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> statio
     round.targets.insert(track->id);
   }
   std::vector<AllocatedStation> all;
+  all.reserve(stations.size());
   for (const SlewStation& station : stations) {
     const auto& traits = station.traits;
     AllocatedStation one{station.station, traits.camera_ecef, traits.axis, station.is_led(),
                          station.follows};
-    const auto seen = std::ranges::find(with_position, station.follows, &Track::id);
-    if (seen != with_position.end()) {
-      one.by_detector = sees_by_detector(**seen, station.station, round.now_us);
-      one.keeps_tracker = is_designated_there(**seen, station.station, round.now_us);
+    if (const auto seen = with_position.find(station.follows); seen != with_position.end()) {
+      const BearingMeasurement* own = tracker_of(*seen->second, station.station, round.now_us);
+      // A tracker there, even a coasting one, has had a bearing within the last second.
+      one.by_detector = own == nullptr && seen->second->bearings.contains(station.station);
+      one.keeps_tracker = own != nullptr && !own->is_acquired;
     }
     one.is_busy = round.busy.contains(station.station);
     if (const auto search = searches_.find(station.station); search != searches_.end()) {

@@ -105,9 +105,10 @@ struct SlewRound {
   std::map<std::string, int> led_to{};        // number of stations led to each cue
 };
 
-// The newest bearing from one station's detector (is_tracklet) or from its tracker; null if there
-// is none within the last second. `bearings`: those of the station, in order of time.
-const BearingMeasurement* newest_of(const std::vector<BearingMeasurement>& bearings,
+// The newest bearing of this target from one station's detector (is_tracklet) or from its tracker;
+// null if there is none within the last second. `bearings`: the track's bearings of the station.
+const BearingMeasurement* newest_of(const Track& track,
+                                    const std::vector<BearingMeasurement>& bearings,
                                     bool is_tracklet, std::int64_t now_us);
 // The newest bearing of this target from the station's tracker; null if there is none within the
 // last second.

@@ -93,6 +93,7 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   }
   let_go_.clear();
   std::vector<SlewStation> all;
+  all.reserve(stations.all().size());
   for (const auto& [name, station] : stations.all()) {
     all.push_back(station_of(name, station, now_us));
     if (all.back().follows != 0) ++round_.seen_by[all.back().follows];
@@ -140,8 +141,8 @@ void SlewSchedule::note_targets(const std::vector<Track>& tracks) {
     if (!is_established(track)) continue;
     const bool leads = round_.priority.at(track.id) > 0.0;
     for (const auto& [station, bearings] : track.bearings) {
-      for (const BearingMeasurement* own :
-           {newest_of(bearings, true, round_.now_us), newest_of(bearings, false, round_.now_us)}) {
+      for (const BearingMeasurement* own : {newest_of(track, bearings, true, round_.now_us),
+                                            newest_of(track, bearings, false, round_.now_us)}) {
         if (own == nullptr || is_wanted(*own)) continue;
         Tracklet& noted = tracklets_[{station, own->track_id}];
         noted = {round_.now_us, round_.now_us};
@@ -312,6 +313,7 @@ std::vector<Slew> SlewSchedule::plan(std::int64_t now_us, const StationRegistry&
   if (!next_) return {};
   round_.now_us = now_us;  // a round may take a while; each slew is for the time of its creation
   std::vector<SlewStation> some;
+  some.reserve(kStationsABearing);
   auto station = stations.all().lower_bound(*next_);
   for (; station != stations.all().end() && some.size() < kStationsABearing; ++station) {
     some.push_back(station_of(station->first, station->second, now_us));

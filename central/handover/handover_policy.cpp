@@ -22,15 +22,13 @@ bool is_designated_there(const Track& track) {
 }
 
 // The target's predicted motion, in the form of a cue.
-CueAim aim_of(const Track& track, double acceleration_sd_m_s2) {
-  const std::int64_t then_us = track.filter.utime_us();
-  const KinematicState state = track.filter.at(then_us);
+CueAim aim_of(std::int64_t target_id, const KinematicState& state, double acceleration_sd_m_s2) {
   const Geodetic place = geodetic_from_ecef(state.mean.head<3>());
   const Eigen::Matrix3d R = R_ecef_enu(place);
   const Eigen::Matrix3d enu = R.transpose() * state.covariance.topLeftCorner<3, 3>() * R;
   Cue cue;
-  cue.id = std::to_string(track.id);
-  cue.utime_us = cue.state_us = then_us;
+  cue.id = std::to_string(target_id);
+  cue.utime_us = cue.state_us = state.utime_us;
   cue.place = place;
   cue.horizontal_sd_m = std::sqrt(std::max(enu(0, 0), enu(1, 1)));
   cue.vertical_sd_m = std::sqrt(enu(2, 2));
@@ -98,7 +96,7 @@ void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
   known.is_live = true;
   if (known.allowed == false) note_dismissed(known, track);
   if (known.allowed != false && is_designated_there(track)) known.is_designated = true;
-  known.last = aim_of(track, config_.acceleration_sd_m_s2);
+  known.last = track.filter.at(track.filter.utime_us());
   known.object_class = appearance_of(track, track.filter.position()).object_class;
   if (is_new) inherit(known, track, now_us);
   if (leads(known)) known.has_led = true;
@@ -108,7 +106,9 @@ void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
 // operator's decision passes to this track, once.
 void HandoverPolicy::inherit(Known& known, const Track& track, std::int64_t now_us) {
   for (auto other = targets_.begin(); other != targets_.end();) {
-    const bool is_it = !other->second.is_live && is_there(other->second.last, track, now_us);
+    const bool is_it = !other->second.is_live && is_there(aim_of(other->first, other->second.last,
+                                                                 config_.acceleration_sd_m_s2),
+                                                          track, now_us);
     if (is_it && other->second.allowed) known.allowed = other->second.allowed;
     if (is_it && other->second.is_designated) known.is_designated = true;
     if (is_it && other->second.has_led) known.has_led = true;
@@ -181,18 +181,19 @@ bool HandoverPolicy::is_dismissed(std::int64_t target_id) const {
 
 bool HandoverPolicy::is_sought(const Known& known, std::int64_t now_us) const {
   return config_.mode != HandoverMode::kOff && leads(known) &&
-         seconds(now_us - known.last.cue.state_us) <= config_.seek_s;
+         seconds(now_us - known.last.utime_us) <= config_.seek_s;
 }
 
 bool HandoverPolicy::is_remembered(const Known& known, std::int64_t now_us) const {
   return (known.is_designated || known.allowed.has_value()) &&
-         seconds(now_us - known.last.cue.state_us) <= config_.remember_s;
+         seconds(now_us - known.last.utime_us) <= config_.remember_s;
 }
 
 std::vector<CueAim> HandoverPolicy::lost(std::int64_t now_us) const {
   std::vector<CueAim> aims;
   for (const auto& [id, known] : targets_) {
-    if (!known.is_live && is_sought(known, now_us)) aims.push_back(known.last);
+    if (!known.is_live && is_sought(known, now_us))
+      aims.push_back(aim_of(id, known.last, config_.acceleration_sd_m_s2));
   }
   return aims;
 }
@@ -210,7 +211,8 @@ std::vector<CueHealth> HandoverPolicy::health(std::int64_t now_us) const {
     const bool is_told = known.is_live ? !known.is_designated || known.allowed.has_value()
                                        : known.allowed == false || is_sought(known, now_us);
     if (!is_told || all.size() == kMostTold) continue;
-    all.push_back(health_of(known.last, state_of(known), known.is_live ? id : 0, now_us));
+    all.push_back(health_of(aim_of(id, known.last, config_.acceleration_sd_m_s2), state_of(known),
+                            known.is_live ? id : 0, now_us));
   }
   return all;
 }

@@ -84,7 +84,7 @@ class HandoverPolicy {
 
  private:
   struct Known {
-    CueAim last;  // its last state
+    KinematicState last;  // its last state
     ObjectClass object_class = ObjectClass::kUnknown;
     bool is_designated = false;  // an operator has designated it in a picture
     bool has_led = false;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <set>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "geometry/angles.h"
@@ -31,6 +33,8 @@ class Allocator {
         held_by_(targets.size()),
         good_sine_(targets.size()) {
     for (std::size_t i = 0; i < targets.size(); ++i) index_[targets[i].id] = i;
+    for (const AllocatedStation& station : stations) seen_by_.push_back(index_of(station.sees));
+    allocation_.reserve(stations.size());
   }
 
   Allocation run(const std::optional<Eigen::Vector3d>& line_ecef) {
@@ -52,7 +56,7 @@ class Allocator {
     const auto found = index_.find(id);
     return found == index_.end() ? kNone : found->second;
   }
-  std::size_t seen_by(std::size_t station) const { return index_of(stations_[station].sees); }
+  std::size_t seen_by(std::size_t station) const { return seen_by_[station]; }
 
   void give(std::size_t station, std::size_t target) {
     held_by_[target].push_back(station);
@@ -267,7 +271,8 @@ class Allocator {
   std::span<const AllocatedTarget> targets_;
   std::span<const AllocatedStation> stations_;
   const LineSearchConfig& unit_;
-  std::map<std::int64_t, std::size_t> index_;
+  std::unordered_map<std::int64_t, std::size_t> index_;
+  std::vector<std::size_t> seen_by_;                      // the target of each station, or kNone
   std::vector<std::vector<std::size_t>> held_by_;         // stations, by target
   mutable std::vector<std::optional<double>> good_sine_;  // by target; computed when needed
   std::vector<std::size_t> movable_;  // stations without a target, and those that may be lent

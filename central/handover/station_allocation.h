@@ -21,10 +21,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "central/handover/line_search.h"
@@ -56,7 +56,7 @@ struct AllocatedStation {
 // Station name to target id, for the stations that are led. kOnLine: the station searches along the
 // line of sight instead.
 inline constexpr std::int64_t kOnLine = 0;
-using Allocation = std::map<std::string, std::int64_t>;
+using Allocation = std::unordered_map<std::string, std::int64_t>;
 // `unit`: how fast the units turn. `line_ecef`: the most likely position of the object of which
 // only a line of sight is known.
 Allocation allocate(std::span<const AllocatedTarget> targets,

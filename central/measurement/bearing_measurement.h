@@ -27,6 +27,9 @@ struct Sighted {
   std::vector<double> class_probability{};  // in the order of target_t's CLASS_*
 
   bool has_rate() const { return rate_covariance.trace() > 0.0; }
+  bool has_appearance() const {
+    return signal > 0.0 || size_rad > 0.0 || !class_probability.empty();
+  }
 };
 
 struct BearingMeasurement {

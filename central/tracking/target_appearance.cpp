@@ -60,8 +60,10 @@ class Sum {
   std::vector<double> log_;  // of each class
 };
 
-bool is_sighted(const BearingMeasurement& m) {
-  return m.sighted.signal > 0.0 || m.sighted.size_rad > 0.0 || !m.sighted.class_probability.empty();
+bool is_sighted(const BearingMeasurement& m) { return m.sighted.has_appearance(); }
+
+bool may_be_sighted(const Track& track, const std::vector<BearingMeasurement>& bearings) {
+  return !bearings.empty() && track.last.appearance_us >= bearings.front().utime_us;
 }
 
 // What each station has seen within the last second. (The track also has the last bearings of a
@@ -70,6 +72,7 @@ std::vector<StationSizes> sizes_of(const Track& track, const KinematicState& sta
   constexpr double kLatest_s = 1.0;
   std::vector<StationSizes> all;
   for (const auto& [station, bearings] : track.bearings) {
+    if (!may_be_sighted(track, bearings)) continue;
     StationSizes& sizes = all.emplace_back();
     for (const BearingMeasurement& m : bearings) {
       if (m.sighted.size_rad <= 0.0 || m.sighted.size_sd_rad <= 0.0) continue;
@@ -138,6 +141,7 @@ void look_at_class(Track& track, const land::Surface* surface) {
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef) {
   Sum sum;
   for (const auto& [station, bearings] : track.bearings) {
+    if (!may_be_sighted(track, bearings)) continue;
     // A tracker's bearings are more frequent than the detector's images.
     const auto newest = std::ranges::find_if(bearings.rbegin(), bearings.rend(), is_sighted);
     if (newest == bearings.rend()) continue;

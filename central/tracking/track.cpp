@@ -4,6 +4,13 @@
 
 namespace ols::fusion {
 
+void LastOfKind::note(const BearingMeasurement& measurement) {
+  std::int64_t& of_kind = measurement.is_tracklet ? tracklet_us : tracker_us;
+  of_kind = std::max(of_kind, measurement.utime_us);
+  if (measurement.sighted.has_appearance())
+    appearance_us = std::max(appearance_us, measurement.utime_us);
+}
+
 bool Track::has_taken(const BearingMeasurement& measurement, std::int64_t within_us) const {
   const auto own = bearings.find(measurement.station);
   if (own == bearings.end()) return false;

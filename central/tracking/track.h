@@ -21,6 +21,14 @@ enum class TrackState { kTentative, kConfirmed, kCoasting, kDeleted };
 using StationBearings =
     std::map<std::string, std::vector<BearingMeasurement>>;  // each station's in order of time
 
+// When a track last took a bearing of each kind, from any station; 0: never. Where a kind is
+// absent, nobody has to search for it through all bearings, which lie far apart in memory.
+struct LastOfKind {
+  std::int64_t tracklet_us = 0, tracker_us = 0, appearance_us = 0;
+
+  void note(const BearingMeasurement& measurement);
+};
+
 struct Track {
   explicit Track(TrackFilter start) : filter(std::move(start)) {}
 
@@ -32,6 +40,7 @@ struct Track {
   int misses = 0;                        // number of rejected bearings
   std::int64_t last_two_station_us = 0;  // when two stations last saw it
   StationBearings bearings;              // those of the last second
+  LastOfKind last;                       // noted with each of the bearings
   Existence existence;
   ClassPosterior classes;
   std::map<std::int64_t, Eigen::Vector3d>

@@ -179,6 +179,7 @@ Agreement agree(std::map<std::string, Explained>& stations, double least_share, 
     sum.oldest_us = std::min(sum.oldest_us, station.bearings.back().utime_us);
     track.hits[name] = here;
     std::ranges::reverse(station.bearings);
+    for (const BearingMeasurement& own : station.bearings) track.last.note(own);
     track.bearings[name] = std::move(station.bearings);
   }
   return sum;

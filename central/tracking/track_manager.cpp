@@ -58,6 +58,7 @@ void TrackManager::keep(Track& track, const BearingMeasurement& measurement) con
   const auto place =
       std::ranges::upper_bound(own, measurement.utime_us, {}, &BearingMeasurement::utime_us);
   own.insert(place, measurement);
+  track.last.note(measurement);
   const auto span_us = static_cast<std::int64_t>(config_.memory_s * 1e6);
   const std::int64_t oldest_us = own.back().utime_us - span_us;
   const auto kept = std::ranges::lower_bound(own, oldest_us, {}, &BearingMeasurement::utime_us);

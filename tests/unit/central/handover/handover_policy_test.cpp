@@ -36,6 +36,7 @@ class TheHandoverPolicy : public testing::Test {
           test::measurement_of(test::ray_to(station, test::square()[k], p_enu, 1e-4), after(at_s));
       m.is_tracklet = by_detectors;
       track.bearings[station].push_back(m);
+      track.last.note(m);
     }
     return track;
   }
@@ -44,6 +45,7 @@ class TheHandoverPolicy : public testing::Test {
     for (auto& [station, own] : track.bearings) {
       own.back().sighted.class_probability.assign(5, 0.02);
       own.back().sighted.class_probability[object_class] = 0.92;
+      track.last.note(own.back());
     }
     return track;
   }
@@ -52,6 +54,7 @@ class TheHandoverPolicy : public testing::Test {
     for (auto& [station, own] : track.bearings) {
       own.back().is_tracklet = false;
       own.back().is_acquired = true;
+      track.last.note(own.back());
     }
     return track;
   }

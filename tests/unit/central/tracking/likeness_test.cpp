@@ -108,6 +108,7 @@ Track seen_by_two(const Sighted& near, const Sighted& far) {
         test::measurement_of(test::ray_to(station, {0.0, 0.0, up_m}, kThere_enu), 1);
     m.sighted = seen;
     track.bearings[station].push_back(m);
+    track.last.note(m);
   };
   add("near", 0.0, near);
   add("far", -100.0, far);
@@ -195,6 +196,7 @@ TEST(TargetAppearance, BelowAStationOnAHillTheHeightIsUnknown) {
       test::measurement_of(test::ray_to("hill", {0.0, 0.0, 350.0}, kThere_enu), 1);
   seen.sighted = {.size_rad = 0.002, .size_sd_rad = 0.0002};
   track.bearings["hill"].push_back(seen);
+  track.last.note(seen);
   for (int i = 0; i <= 25; ++i) {
     const std::int64_t utime_us = 1 + i * 200'000LL;
     for (auto& [station, own] : track.bearings) own.back().utime_us = utime_us;
