@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -104,9 +105,10 @@ void cost_of(const Load& load, double most_cores, double most_ms, Limits& limits
 
 }  // namespace
 
-void cost(Limits& limits) {
+void cost(Limits& limits, std::optional<int> only) {
+  const std::vector<int> sites = only ? std::vector{*only} : std::vector{4, 8, 40, 200, 1000};
   for (const double place_sd_m : {0.0, 1.0}) {
-    for (const int stations : {4, 8, 40, 200, 1000}) {
+    for (const int stations : sites) {
       const int each = std::min(8, stations), groups = stations / each;
       cost_of(
           {.name = std::to_string(stations) + " stations, " + std::to_string(groups) + " targets",
@@ -116,6 +118,7 @@ void cost(Limits& limits) {
           0.7, 1.0, limits);
     }
   }
+  if (only) return;
   // The cost of the paper's estimate grows with the square of the stations of one target.
   for (const int stations : {20, 64, 100}) {
     cost_of({.name = std::to_string(stations) + " stations, all on one target",

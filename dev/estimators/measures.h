@@ -3,6 +3,7 @@
 // results.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "dev/estimators/limits.h"
@@ -55,7 +56,8 @@ void write_class_looks(const std::string& file, int runs);
 
 // Measures the fusion's processor time per bearing and prints one line per site. Some sites have up
 // to 1000 stations, with eight stations on each target; others have up to 100 stations, which all
-// observe the same targets.
-void cost(Limits& limits);
+// observe the same targets. only: measures just the site with this number of stations, eight on
+// each target.
+void cost(Limits& limits, std::optional<int> only = std::nullopt);
 
 }  // namespace ols::bench
