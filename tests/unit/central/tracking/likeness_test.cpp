@@ -146,7 +146,10 @@ Appearance flown(const Eigen::Vector3d& velocity_enu_m_s, double size_rad = 0.35
   EXPECT_EQ(appearance_of(track, there).object_class, ObjectClass::kUnknown);
   for (int i = 0; i <= 25; ++i) {
     const std::int64_t utime_us = 1 + i * 200'000LL;
-    for (auto& [station, own] : track.bearings) own.back().utime_us = utime_us;
+    for (auto& [station, own] : track.bearings) {
+      own.back().utime_us = utime_us;
+      track.last.note(own.back());
+    }
     track.filter = TrackFilter(
         {}, utime_us,
         {.p_ecef = there,
@@ -199,7 +202,10 @@ TEST(TargetAppearance, BelowAStationOnAHillTheHeightIsUnknown) {
   track.last.note(seen);
   for (int i = 0; i <= 25; ++i) {
     const std::int64_t utime_us = 1 + i * 200'000LL;
-    for (auto& [station, own] : track.bearings) own.back().utime_us = utime_us;
+    for (auto& [station, own] : track.bearings) {
+      own.back().utime_us = utime_us;
+      track.last.note(own.back());
+    }
     track.filter = TrackFilter(
         {}, utime_us,
         {.p_ecef = there,
