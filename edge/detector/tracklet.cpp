@@ -70,9 +70,12 @@ void Tracklet::predict(const Eigen::Matrix3d& motion, double interval_s,
 // In steps of a moment, so that the jitter of single images does not lengthen the paths.
 void Tracklet::measure_way(double interval_s) {
   constexpr double kStep_s = 0.2, kRest_s = 3.0;
+  constexpr double kStill_px = 1.0;  // of the scene in a step: may be the error of its motion
+  way_s_ += interval_s;
   if ((marked_s_ += interval_s) >= kStep_s) {
     path_px_ += (pixel_ - mark_).norm();
-    scene_path_px_ += (mark_ - marked_pixel_).norm();
+    const double scene_px = (mark_ - marked_pixel_).norm();
+    if (scene_px > kStill_px) scene_path_px_ += scene_px;
     mark_ = marked_pixel_ = pixel_;
     marked_s_ = 0.0;
   }
@@ -85,7 +88,7 @@ void Tracklet::measure_way(double interval_s) {
 
 void Tracklet::forget_way() {
   origin_ = mark_ = rest_ = star_ = first_pixel_ = marked_pixel_ = pixel_;
-  path_px_ = scene_path_px_ = reach_px_ = rested_s_ = marked_s_ = 0.0;
+  path_px_ = scene_path_px_ = reach_px_ = way_s_ = rested_s_ = marked_s_ = 0.0;
   rests_ = false;
 }
 

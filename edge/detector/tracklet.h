@@ -74,8 +74,10 @@ class Tracklet {
   // scene_shift_px(): how far the scene has moved in the image since the tracklet began.
   // reach_px(): its largest distance so far from the pixel where it began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
-  // The length of the scene's path in the image at the tracklet, since it began.
-  double scene_path_px() const { return scene_path_px_ + (mark_ - marked_pixel_).norm(); }
+  // scene_path_px(): the length of the scene's path in the image, in steps of 0.2 s, without those
+  // of less than a pixel. way_s(): over what time way_px() was made [s].
+  double scene_path_px() const { return scene_path_px_; }
+  double way_s() const { return way_s_; }
   double reach_px() const { return reach_px_; }
   // The tracklet's distance from an imagined star, which was at the tracklet's first place when the
   // tracklet began.
@@ -107,11 +109,11 @@ class Tracklet {
   Eigen::Vector2d measured_size_px_;
   std::optional<Outline> outline_;
   double reach_px_ = 0.0;
-  double marked_s_ = 0.0, rested_s_ = 0.0;  // age of mark_; age of rest_
-  double path_px_ = 0.0;                    // length of the path up to mark_
-  double scene_path_px_ = 0.0;              // length of the scene's path up to the last mark
-  Eigen::Matrix2d covariance_;              // of position and velocity; the same for both axes
-  double acceleration_px_s2_;               // standard deviation of the acceleration
+  double way_s_ = 0.0, marked_s_ = 0.0, rested_s_ = 0.0;  // ages of origin_, mark_ and rest_
+  double path_px_ = 0.0;                                  // length of the path up to mark_
+  double scene_path_px_ = 0.0;  // length of the scene's path up to the last mark
+  Eigen::Matrix2d covariance_;  // of position and velocity; the same for both axes
+  double acceleration_px_s2_;   // standard deviation of the acceleration
   double signal_to_noise_;
   bool brighter_;
   double log_ratio_ = 0.0, unseen_s_ = 0.0, age_s_ = 0.0;

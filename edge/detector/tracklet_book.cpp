@@ -122,7 +122,7 @@ bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
 bool TrackletBook::creeps(const Tracklet& tracklet) const {
   constexpr double kLeastSpeed = 0.02;  // of the image's width per second
   return tracklet.scene_path_px() > kTold_px &&
-         tracklet.way_px() < kLeastSpeed * image_.width * tracklet.age_s();
+         tracklet.way_px() < kLeastSpeed * image_.width * tracklet.way_s();
 }
 
 // What stands still in front of the ground is a part of it: foliage, a stone, an edge of a

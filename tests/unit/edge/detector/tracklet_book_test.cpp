@@ -190,8 +190,8 @@ TEST(TrackletBook, WhileTheCameraTurnsPartsOfSceneAndCameraAreNoObjects) {
 }
 
 // A spot against the ground that moves `own_px` an image relative to the scene, while the scene
-// moves `scene_px` an image to and fro in the image.
-long confirmed_in_sway(double scene_px, double own_px) {
+// moves `scene_px` an image to and fro in the image. In the first images this motion is unknown.
+long confirmed_in_sway(double scene_px, double own_px, int unknown_images = 0) {
   TrackletBook book(TrackletConfig{}, kView);
   double x = 300.0;
   for (int image = 0; image < 90; ++image) {
@@ -200,7 +200,8 @@ long confirmed_in_sway(double scene_px, double own_px) {
     x += motion(0, 2) + own_px;
     Detection detection = clear_spot(x, 200.0);
     detection.clear = false;
-    book.advance({detection}, motion, kTick_s);
+    const bool known = image >= unknown_images;
+    book.advance({detection}, known ? std::optional(motion) : std::nullopt, kTick_s);
   }
   return confirmed(book);
 }
@@ -209,6 +210,7 @@ TEST(TrackletBook, WhileTheCameraMovesWhatCreepsBeforeTheGroundIsNoObject) {
   EXPECT_EQ(confirmed_in_sway(0.5, 0.3), 0) << "creeps";
   EXPECT_EQ(confirmed_in_sway(0.0, 0.3), 1) << "the camera rests";
   EXPECT_EQ(confirmed_in_sway(0.5, 1.0), 1) << "travels";
+  EXPECT_EQ(confirmed_in_sway(0.5, 1.0, 60), 1) << "travels; the time before does not count";
 }
 
 TEST(TrackletBook, WhatFlewIsNotDoubtedWhenItHoversBeforeTheGround) {
