@@ -215,7 +215,8 @@ void ClassPosterior::Sum::fade(double kept) {
 double ClassPosterior::Sum::looks(std::int64_t now_us) const {
   const double seen_s = 1e-6 * static_cast<double>(last_us - first_us);
   const double since_s = 1e-6 * static_cast<double>(now_us - last_us);
-  return std::min(1.0 + seen_s / kCorrelation_s, kMostLooks) * std::exp(-since_s / kMemory_s);
+  const double independent = std::min({1.0 + seen_s / kCorrelation_s, kMostLooks, weight});
+  return std::max(independent, 1.0) * std::exp(-since_s / kMemory_s);
 }
 
 std::array<double, kObjectClasses> ClassPosterior::posterior() const {

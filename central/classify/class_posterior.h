@@ -106,7 +106,8 @@ class ClassPosterior {
 
     void fade(double kept);
     double mean(int kind) const { return weight > 0.0 ? log[kind] / weight : 0.0; }
-    // The number N of independent looks; less once the last of them is long ago.
+    // The number N of independent looks, never more than were made; less once the last of them is
+    // long ago.
     double looks(std::int64_t now_us) const;
   };
   std::optional<std::int64_t> first_us_, last_us_;

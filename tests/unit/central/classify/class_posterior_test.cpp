@@ -127,6 +127,20 @@ TEST(ClassPosterior, AFlickerThatIsNoLongerSeenIsForgotten) {
   for (int i = 0; i < kObjectClasses; ++i) EXPECT_NEAR(posterior.posterior()[i], never[i], 0.01);
 }
 
+TEST(ClassPosterior, AFlickerThatIsSeenAgainAfterALongTimeCountsOnce) {
+  const ClassLook still = look(0.8, 8.5, 0.0, 0.0);
+  ClassLook unknown = still;
+  unknown.flicker = {};
+  ClassPosterior again, once;
+  again.add(1, still);
+  once.add(1, unknown);
+  for (int i = 1; i < 400; ++i)
+    for (ClassPosterior* one : {&again, &once}) one->add(1 + i * 250'000LL, unknown);
+  for (ClassPosterior* one : {&again, &once}) one->add(100'000'001, still);
+  for (int i = 0; i < kObjectClasses; ++i)
+    EXPECT_NEAR(again.posterior()[i], once.posterior()[i], 0.02);
+}
+
 TEST(ClassPosterior, AStrayLookMakesNoBirdOfADrone) {
   ClassLook drone = look(0.5, 0.2, 4.0, 0.0005), stray = drone;
   drone.flicker.sd = stray.flicker.sd = 1e-4;
