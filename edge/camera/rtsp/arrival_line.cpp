@@ -40,6 +40,8 @@ double ArrivalLine::step_limit_s() const { return std::max(kLineStep_s, kStepSig
 
 bool ArrivalLine::knows_rate() const { return least_.size() >= kLeastSpans; }
 
+bool ArrivalLine::shows_scatter() const { return least_.size() > kScatterSpans; }
+
 void ArrivalLine::add(std::int64_t device_ns, double arrival_s) {
   if (!least_.empty() && arrival_s - least_.back().arrival_s > kGap_s) clear();
   // Nothing makes a picture early: its stamp was set forward.

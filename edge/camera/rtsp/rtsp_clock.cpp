@@ -74,7 +74,7 @@ bool RtspClock::credible(double delay_s, double sd_s, double arrival_s) const {
 // While host and network are busy, even the least delayed pictures are late, by about as much as
 // they scatter. A delay that is learnt then is too long by that: it counts the less, the more they
 // scatter, and is no surer than the arrivals that it is learnt from. Stamps that run wrong give a
-// wrong delay: nothing is learnt before their rate is known.
+// wrong delay: nothing is learnt before they would show.
 void RtspClock::learn(const Delay& delay, double arrival_s) {
   if (learnt_from_ > 0 && arrival_s - learnt_s_ < kLearnEvery_s) return;
   learnt_s_ = arrival_s;
@@ -112,7 +112,7 @@ FrameTime RtspClock::stamp(const RtspStamp& picture, std::int64_t utc_minus_mono
         .sd_s = std::hypot(config_.report_sd_s, std::sqrt(step_square_s2_))};
     const double delay_s = arrival.time_s - reported.time_s;
     if (credible(delay_s, std::hypot(reported.sd_s, arrival.sd_s), picture.arrival_s)) {
-      if (rate()) learn({delay_s, arrival.sd_s}, picture.arrival_s);
+      if (arrivals_.shows_scatter()) learn({delay_s, arrival.sd_s}, picture.arrival_s);
       time = reported;
       source = StampSource::kCamera;
       refused_since_s_.reset();

@@ -247,7 +247,7 @@ TEST(RtspClock, ReportsOfAWrongClockAreNotBelieved) {
 // Before the rate of the stamps is known, a report through lying stamps cannot be told from a good
 // one. Nothing of it may stay.
 TEST(RtspClock, ReportsBeforeTheRateIsKnownTeachNoDelay) {
-  for (const double stamp_rate : {0.84, 1.1}) {
+  for (const double stamp_rate : {0.84, 0.99, 1.007, 1.1}) {
     RtspWorld world;
     world.stamp_rate = stamp_rate;
     world.first_report_s = 0.1;
@@ -301,13 +301,13 @@ TEST(RtspClock, FirstReportsThatAreWrongDoNotOutliveTheirCorrection) {
   RtspWorld world;
   world.clock_off_s = -0.35;
   RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.2});
-  run(world, clock, 0.0, 14.0);
+  run(world, clock, 0.0, 24.0);
   EXPECT_NEAR(clock.learnt_delay()->delay_s, 0.75, 0.01);
   world.clock_off_s = 0.0;
   Judged judged;
-  for (double since_s = 14.0; since_s < 40.0; since_s += 0.04) {
+  for (double since_s = 24.0; since_s < 50.0; since_s += 0.04) {
     const FrameTime time = clock.stamp(world.picture(1000.0 + since_s), kUtcMinusMonotonic_ns);
-    if (since_s > 30.0) {
+    if (since_s > 40.0) {
       judged.by_reports += time.source == StampSource::kCamera ? 1 : 0;
       judged.worst_s = std::max(judged.worst_s, std::abs(time.mid_exposure_s - 1000.0 - since_s));
     }
