@@ -70,6 +70,8 @@ class Looks {
   std::size_t size() const { return path_.size(); }
 
  private:
+  static constexpr double kNearest_m = 40.0;
+
   struct Root {
     Eigen::Vector3d mean_enu;
     Eigen::Matrix3d root;
@@ -90,7 +92,7 @@ class Looks {
   // sigmas: in height, or in the place of an outline. Over nearer land whoever set up the tripod
   // has looked.
   double crest_at(std::size_t instant) const {
-    constexpr double kNearest_m = 40.0, kSigmas = 3.0, kNarrower = 0.6;
+    constexpr double kSigmas = 3.0, kNarrower = 0.6;
     const Eigen::Vector3d& enu = roots_[instant].mean_enu;
     const double azimuth_rad = std::atan2(enu.x(), enu.y()), distance_m = enu.head<2>().norm();
     const double elevation_rad = apparent_elevation(enu);
@@ -123,7 +125,8 @@ class Looks {
     const auto far = highest_before(far_rad, distance_m);
     if (far && far->distance_m >= behind_m) highest = far;
     const auto near = horizon_.highest_before(displaced_rad, behind_m);
-    return near ? std::min(above(*near), above(*highest)) : above(*highest);
+    const bool counts = near && near->distance_m > kNearest_m;
+    return counts ? std::min(above(*near), above(*highest)) : above(*highest);
   }
 
   Look look_at(std::size_t instant, int sample, double crest_m) const {

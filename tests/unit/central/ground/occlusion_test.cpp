@@ -107,6 +107,24 @@ TEST(Occlusion, MayBeBehindAHouseThatIsAMetreBesideIt) {
   EXPECT_NEAR(found->hidden, 0.16, 0.06);
 }
 
+// The hill 500 m away is 3 sigmas below the target, the roof 55 m away only 1.1: its metre of error
+// is nearly a degree. So the roof may hide the target, though the hill is the higher one.
+TEST(Occlusion, MayBeBehindANearRoofThatIsLowerThanTheHorizon) {
+  const auto height = [](double roof_m) {
+    return [roof_m](double east_m, double) {
+      if (std::abs(east_m - 55.0) < 5.0) return roof_m;
+      return std::abs(east_m - 500.0) < 10.0 ? 52.0 : 0.0;
+    };
+  };
+  for (const auto& [roof_m, hidden] : {std::pair{49.5, 0.13}, std::pair{30.0, 0.0}}) {
+    const auto land = std::make_shared<const Land>(height(roof_m));
+    LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});
+    const auto path = straight(*land, {1000.0, 0.0, 60.5}, {0.0, 1.0, 0.0});
+    const auto found = occlusion_ahead(horizon, path, kStep_s, kLead_s);
+    EXPECT_NEAR(found ? found->hidden : 0.0, hidden, 0.06) << roof_m;
+  }
+}
+
 // As behind the wall that the land has, above.
 TEST(Occlusion, IsBehindWhatTheStationHasSeen) {
   const auto land = std::make_shared<const Land>(flat);
