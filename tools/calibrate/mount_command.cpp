@@ -23,10 +23,8 @@ std::string said(const std::string& axis, const AxisResult& of) {
   if (!of.fit && 2 * of.found > of.pictures)
     return fmt::format(
         "{}: the scenery of {} of {} pictures is found again, but too few of them were taken at "
-        "rest "
-        "or in motion, or they do not agree with the positions: measure again while the computer "
-        "and "
-        "the network are idle",
+        "rest or in motion, or they do not agree with the positions: measure again while the "
+        "computer and the network are idle",
         axis, of.found, of.pictures);
   if (!of.fit)
     return fmt::format(

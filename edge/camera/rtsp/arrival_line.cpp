@@ -19,7 +19,8 @@ constexpr double kLeastScatter_s = 1e-5;  // of stamps that count 90 000 a secon
 constexpr double kOscillator = 1e-4;  // 1-sigma of an honest rate error
 constexpr double kFarOffRate = 5e-3;  // no oscillator: the stamps lie
 constexpr double kFarOffAtFirst = 0.02;
-constexpr std::size_t kFewestSpans = 3;  // show a rate that is far off: two are on a line anyway
+// To accept a rate that is far off: two spans fit any rate.
+constexpr std::size_t kFewestSpans = 3;
 
 constexpr std::size_t kStepSpans = 3;  // in a row on one side of the line: the clock was stepped
 constexpr double kLineStep_s = 0.05;
@@ -62,8 +63,8 @@ void ArrivalLine::add(std::int64_t device_ns, double arrival_s) {
   fit();
 }
 
-// The rate of a line before them needs kFewestSpans that have ended, and there is one that was
-// open.
+// Compares the newest spans with a line through the older ones. fit() leaves the last of these out,
+// and a rate that is far off takes kFewestSpans: there must be one more.
 void ArrivalLine::forget_what_came_before_a_step() {
   if (least_.size() <= kStepSpans + kFewestSpans) return;
   ArrivalLine before = *this;
