@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "base/bus/channel_names.h"
 #include "base/bus/lcm_bus.h"
@@ -11,6 +13,7 @@
 #include "geometry/direction.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
+#include "tools/calibrate/sighting_log.h"
 
 namespace ols::calibration {
 namespace {
@@ -47,9 +50,11 @@ class Reader {
     }
     if (message.clock_state != Message::CLOCK_SYNCHRONISED) {
       ++log.unsynchronised;
-      return true;
+    } else if (!(message.belief >= SightingLogOptions{}.least_belief)) {
+      ++log.disbelieved;
+    } else if (is_new(message)) {
+      add(message);
     }
-    add(message);
     return true;
   }
 
@@ -75,6 +80,11 @@ class Reader {
     log.errors.emplace_back();
     log.by_arrival.push_back(0);
     return log.stations.size() - 1;
+  }
+
+  // False if an overlapping recording has contained it.
+  bool is_new(const Message& m) {
+    return known_.emplace(m.station, m.utime, m.boot_id, m.track_id).second;
   }
 
   void add(const Message& m) {
@@ -104,6 +114,7 @@ class Reader {
     log.bearings.push_back(one);
   }
 
+  std::set<std::tuple<std::string, std::int64_t, std::int64_t, std::int64_t>> known_;
   std::optional<LocalFrame> frame_;
   std::int64_t origin_us_ = 0;
 };

@@ -14,10 +14,11 @@ struct BearingLog {
   std::vector<std::string> stations;
   std::vector<LastingErrors> errors;    // of each station, as stated: means of its bearings
   std::vector<std::size_t> by_arrival;  // of each station: bearings with times by arrival
-  std::vector<TimedBearing> bearings;
-  std::size_t unusable = 0;         // malformed, of another schema, or with impossible values
-  std::size_t unsynchronised = 0;   // the station's clock was not synchronised
-  std::vector<std::string> damage;  // one text per damaged recording
+  std::vector<TimedBearing> bearings;   // each once, even if several recordings contain it
+  std::size_t unusable = 0;             // malformed, of another schema, or with impossible values
+  std::size_t unsynchronised = 0;       // the station's clock was not synchronised
+  std::size_t disbelieved = 0;          // the tracker's belief was too low
+  std::vector<std::string> damage;      // one text per damaged recording
 };
 
 // Throws std::runtime_error naming a file that cannot be read.

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
-#include <string_view>
 
+#include "base/config/toml_config.h"
+#include "edge/camera/rtsp/rtsp_kind.h"
+#include "edge/camera/v4l2/v4l2_kind.h"
+#include "edge/config/config.h"
 #include "tools/calibrate/bearing_log.h"
 #include "tools/calibrate/command_report.h"
 #include "tools/calibrate/config_change.h"
@@ -14,32 +18,68 @@
 namespace ols::calibration {
 namespace {
 
-// The keys of a configuration that hold a delay of the pictures, and their defaults.
+// The keys in [camera] that hold a delay of the pictures, and the delay that the station uses.
 struct DelayKeys {
   std::string value, sd;
-  double default_s;
+  double delay_s;
 };
-
-std::string text_of(const setup::Values& values, const std::string& key) {
-  const std::string* value = setup::find(values, key);
-  return value == nullptr ? "" : setup::text_in(*value).value_or("");
-}
 
 // A picture's time is its arrival minus delay_s, or the time of a sender report minus
 // report_delay_s.
-DelayKeys keys_of(const setup::Values& config, bool by_arrival) {
-  const std::string kind = text_of(config, "camera.kind");
-  if (kind == "v4l2") return {"camera.delay_s", "camera.delay_sd_s", 0.02};
-  if (kind != "rtsp")
+DelayKeys keys_of(const station::ChosenCamera& camera, bool by_arrival) {
+  if (const auto* v4l2 = camera.as<camera::V4l2Kind>())
+    return {"delay_s", "delay_sd_s", v4l2->v4l2.delay_s};
+  const auto* rtsp = camera.as<camera::RtspKind>();
+  if (rtsp == nullptr)
     throw std::invalid_argument("[camera] is not of the kind \"rtsp\" or \"v4l2\"");
-  if (by_arrival) return {"camera.delay_s", "camera.delay_sd_s", 0.3};
-  return {"camera.report_delay_s", "camera.report_sd_s", 0.0};
+  if (by_arrival) return {"delay_s", "delay_sd_s", rtsp->rtsp.clock.delay_s};
+  return {"report_delay_s", "report_sd_s", rtsp->rtsp.clock.report_delay_s};
+}
+
+// Throws if the station would refuse this delay.
+void check_range(const station::ChosenCamera& camera, const std::string& key, double delay_s) {
+  const std::vector<config::Row> rows = camera->section().rows;
+  const auto row = std::ranges::find(rows, key, &config::Row::key);
+  try {
+    row->read(ConfigFile(fmt::format("{} = {:.6f}", key, delay_s), key).root());
+  } catch (const ConfigError&) {
+    throw std::runtime_error(fmt::format(
+        "camera.{} would be {:.3f} s, but must be within {} s. Are the clocks of all stations "
+        "right?",
+        key, delay_s, row->values));
+  }
+}
+
+// What was left out of the recordings.
+std::vector<std::string> faults_of(const BearingLog& log) {
+  std::vector<std::string> faults;
+  if (log.unusable > 0)
+    faults.push_back(fmt::format("{} bearings cannot be read: left out", log.unusable));
+  return faults;
+}
+
+std::vector<std::string> notes_of(const BearingLog& log) {
+  std::vector<std::string> notes;
+  if (log.unsynchronised > 0)
+    notes.push_back(fmt::format("{} bearings of stations that did not know the time: left out",
+                                log.unsynchronised));
+  if (log.disbelieved > 0)
+    notes.push_back(
+        fmt::format("{} bearings were hardly believed by the tracker: left out", log.disbelieved));
+  return notes;
+}
+
+std::runtime_error failure(std::string why, const BearingLog& log) {
+  for (const auto& lines : {faults_of(log), notes_of(log), log.damage}) {
+    for (const std::string& line : lines) why += "; " + line;
+  }
+  return std::runtime_error(why);
 }
 
 std::size_t index_of(const BearingLog& log, const std::string& station) {
   const auto found = std::ranges::find(log.stations, station);
   if (found == log.stations.end())
-    throw std::runtime_error("--recording: no bearings of station '" + station + "'");
+    throw failure("--recording: no usable bearings of station '" + station + "'", log);
   return static_cast<std::size_t>(found - log.stations.begin());
 }
 
@@ -55,27 +95,25 @@ bool is_by_arrival(const BearingLog& log, std::size_t station) {
   return by_arrival != 0;
 }
 
-std::runtime_error no_delay(const DelayFit& fit) {
-  return std::runtime_error(fmt::format(
-      "no delay found: at {} seconds, the station and another one saw one object ({} left out: "
-      "several objects). Needed are at least 10, and an object that moves fast, to and fro",
-      fit.seconds, fit.several));
+std::runtime_error no_delay(const BearingLog& log, const DelayFit& fit) {
+  return failure(
+      fmt::format("no delay found: the station and another one saw the same object at {} instants, "
+                  "and {} more were left out because a station saw several objects. At least 10 "
+                  "instants are needed, and an object that moves fast, to and fro",
+                  fit.seconds, fit.several),
+      log);
 }
 
 CommandReport report_on(const BearingLog& log, const DelayFit& fit, const std::string& station) {
-  CommandReport report{{}, {}, log.damage};
+  CommandReport report{{}, notes_of(log), log.damage};
   report.summary.push_back(fmt::format(
-      "{}: pictures are stamped {:.1f} +- {:.1f} ms too {}, by {} seconds; the lines miss each "
-      "other by {:.1f} times what is expected",
+      "{}: pictures are stamped {:.1f} +- {:.1f} ms too {}, measured at {} instants; the "
+      "lines miss each other by {:.1f} times what is expected",
       station, 1e3 * std::abs(fit.late_s->value), 1e3 * fit.late_s->sd,
       fit.late_s->value < 0.0 ? "early" : "late", fit.seconds, fit.misfit));
   if (fit.several > 0)
-    report.notes.push_back(fmt::format("{} seconds with several objects: left out", fit.several));
-  if (log.unsynchronised > 0)
-    report.notes.push_back(fmt::format(
-        "{} bearings of stations that did not know the time: left out", log.unsynchronised));
-  if (log.unusable > 0)
-    report.faults.push_back(fmt::format("{} bearings cannot be read: left out", log.unusable));
+    report.notes.push_back(fmt::format("{} instants with several objects: left out", fit.several));
+  std::ranges::copy(faults_of(log), std::back_inserter(report.faults));
   return report;
 }
 
@@ -99,23 +137,19 @@ CLI::App* add_delay(CLI::App& app, DelayOptions& o) {
 int run_delay(const DelayOptions& o) {
   constexpr double kLeastSd_s = 1e-4;  // of a configuration
   const std::string path = config_path(o.station), text = config_text(path);
-  const setup::Values before = setup::flat(text);
-  const std::string station = text_of(before, "id");
+  const station::StationSettings settings = station::load_station_settings(path);
   const BearingLog log = read_bearings(o.recordings);
-  const std::size_t wanted = index_of(log, station);
-  const DelayKeys keys = keys_of(before, is_by_arrival(log, wanted));
+  const std::size_t wanted = index_of(log, settings.id);
+  const DelayKeys keys = keys_of(settings.camera, is_by_arrival(log, wanted));
   const DelayFit fit = fit_delay(log.bearings, log.errors, wanted);
-  if (!fit.late_s) throw no_delay(fit);
-  const int status = tell(report_on(log, fit, station));
+  if (!fit.late_s) throw no_delay(log, fit);
+  const int status = tell(report_on(log, fit, settings.id));
+  const double delay_s = keys.delay_s + fit.late_s->value;
+  check_range(settings.camera, keys.value, delay_s);
+  const setup::Values before = setup::flat(text);
   setup::Values now = before;
-  const double delay_s = number_in(before, keys.value, keys.default_s) + fit.late_s->value;
-  if (delay_s < 0.0 && keys.value == "camera.delay_s")
-    throw std::runtime_error(fmt::format(
-        "{} would be {:.3f} s: pictures cannot arrive before their exposure. Are the clocks of "
-        "all stations right?",
-        keys.value, delay_s));
-  set(now, keys.value, delay_s);
-  set(now, keys.sd, std::max(fit.late_s->sd, kLeastSd_s));
+  set(now, "camera." + keys.value, delay_s);
+  set(now, "camera." + keys.sd, std::max(fit.late_s->sd, kLeastSd_s));
   tell_changes(before, now);
   if (o.write) write_changes(path, text, before, now);
   return status;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <random>
 #include <sstream>
 
@@ -12,6 +13,8 @@
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
 #include "tests/unit/base/bus/log_file.h"
+#include "tests/unit/error_text.h"
+#include "tools/calibrate/bearing_log.h"
 
 namespace ols::calibration {
 namespace {
@@ -51,7 +54,9 @@ Message bearing(const std::string& station, const Vector3d& camera, double time_
   return m;
 }
 
-std::string recorded(std::int8_t later_source = Message::STAMP_ARRIVAL) {
+using Change = std::function<void(Message&)>;
+
+std::string recorded(const Change& change = [](Message&) {}) {
   std::mt19937_64 random(4);
   std::string bytes;
   for (double time_s = 0.0; time_s < 60.0; time_s += 0.1) {
@@ -60,7 +65,7 @@ std::string recorded(std::int8_t later_source = Message::STAMP_ARRIVAL) {
                               : station == "east" ? Vector3d(150.0, -100.0, 2.0)
                                                   : Vector3d(0.0, 180.0, 1.0);
       Message m = bearing(station, camera, time_s, station == "cam" ? kLate_s : 0.0, random);
-      if (station == "cam" && time_s > 30.0) m.stamp_source = later_source;
+      if (station == "cam") change(m);
       bytes += log_record(m.utime, "OLS_BEARING_" + station, payload_of(m));
     }
   }
@@ -69,16 +74,29 @@ std::string recorded(std::int8_t later_source = Message::STAMP_ARRIVAL) {
 
 class DelayCommand : public ::testing::Test {
  protected:
-  void SetUp() override {
-    write("id = \"cam\"\n\n[camera]\nkind = \"rtsp\"\ndelay_s = 0.25  # of the data sheet\n");
+  void SetUp() override { write("delay_s = 0.25  # of the data sheet\n"); }
+  // The configuration of a station with these keys in [camera].
+  void write(const std::string& delays, const std::string& id = "cam",
+             const std::string& camera = kRtsp) const {
+    std::ofstream(path_) << "id = \"" << id << "\"\nlens = {fx_px = 1e4, fy_px = 1e4}\n\n[camera]\n"
+                         << camera << delays
+                         << "\n[ptu]\ndevice = \"p\"\n\n[pose]\nheading_deg = 10\n"
+                            "latitude_deg = 49.2\nlongitude_deg = 16.6\nheight_m = 250.0\n\n"
+                            "[calibration.sd]\nheading_deg = 0.1\nmount_deg = 0.1\n"
+                            "tilt_deg = 0.1\nposition_m = 0.5\n";
   }
-  void write(const std::string& text) const { std::ofstream(path_) << text; }
+  // What the command says when it refuses.
+  std::string refusal(const LogFile& log) const {
+    return error_text<std::runtime_error>([&] { run_delay({path_, {log.path()}, true}); });
+  }
   std::string text() const {
     std::stringstream all;
     all << std::ifstream(path_).rdbuf();
     return all.str();
   }
 
+  static constexpr const char* kRtsp = "kind = \"rtsp\"\nurl = \"rtsp://10.0.0.5/s\"\n";
+  static constexpr const char* kV4l2 = "kind = \"v4l2\"\ndevice = \"/dev/video0\"\n";
   const std::string path_ = ::testing::TempDir() + "/delay_command_test.toml";
 };
 
@@ -87,7 +105,7 @@ TEST_F(DelayCommand, WritesTheDelayIntoTheConfiguration) {
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(run_delay({path_, {log.path()}, true}), 0);
   const std::string said = ::testing::internal::GetCapturedStdout();
-  EXPECT_NE(said.find("too late"), std::string::npos) << said;
+  EXPECT_NE(said.find("too late, measured at "), std::string::npos) << said;
   const std::string after = text();
   const std::size_t at = after.find("delay_s = ");
   ASSERT_NE(at, std::string::npos) << after;
@@ -99,17 +117,57 @@ TEST_F(DelayCommand, WritesTheDelayIntoTheConfiguration) {
 }
 
 TEST_F(DelayCommand, ReportsAndArrivalsHaveDelaysOfTheirOwn) {
-  const LogFile log(recorded(Message::STAMP_CAMERA));
+  const LogFile log(recorded([](Message& m) {
+    if (m.utime > kStart_us + 30'000'000) m.stamp_source = Message::STAMP_CAMERA;
+  }));
   EXPECT_THROW(run_delay({path_, {log.path()}, true}), std::runtime_error);
   EXPECT_NE(text().find("delay_s = 0.25  #"), std::string::npos);
 }
 
 TEST_F(DelayCommand, AStationWithoutBearingsOrWithAnotherCameraIsRefused) {
   const LogFile log(recorded());
-  write("id = \"other\"\n\n[camera]\nkind = \"rtsp\"\n");
+  write("", "other");
   EXPECT_THROW(run_delay({path_, {log.path()}, false}), std::runtime_error);
-  write("id = \"east\"\n\n[camera]\nkind = \"gige\"\n");
+  write("", "east", "device = \"c\"\n");
   EXPECT_THROW(run_delay({path_, {log.path()}, false}), std::invalid_argument);
+}
+
+// The driver of a USB camera may stamp a picture before the middle of its exposure; a picture from
+// the network cannot arrive before it.
+TEST_F(DelayCommand, WhatTheConfigurationRefusesIsRefused) {
+  const LogFile early(recorded([](Message&m) { m.utime -= 400'000; })), late(recorded());
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(refusal(early), "camera.delay_s would be -0.0")) << refusal(early);
+  EXPECT_NE(text().find("delay_s = 0.25  #"), std::string::npos);
+  write("delay_s = 0.95\n", "cam", kV4l2);
+  EXPECT_TRUE(has(refusal(late), "camera.delay_s would be 1.0")) << refusal(late);
+  write("", "cam", kV4l2);
+  EXPECT_EQ(refusal(early), "");
+  EXPECT_TRUE(has(text(), "delay_s = -0.2")) << text();
+}
+
+TEST_F(DelayCommand, ABadConfigurationIsNamed) {
+  const LogFile log(recorded());
+  std::ofstream(path_) << "id = \n";
+  EXPECT_EQ(refusal(log).find(path_ + ":1"), 0U) << refusal(log);
+}
+
+TEST_F(DelayCommand, BearingsThatAreLeftOutAreCounted) {
+  const LogFile lost(recorded([](Message& m) { m.clock_state = Message::CLOCK_UNSYNCHRONISED; }));
+  EXPECT_NE(refusal(lost).find("600 bearings of stations that did not know the time"),
+            std::string::npos)
+      << refusal(lost);
+  const LogFile doubted(recorded([](Message& m) { m.belief = 0.4; }));
+  EXPECT_NE(refusal(doubted).find("600 bearings were hardly believed"), std::string::npos)
+      << refusal(doubted);
+}
+
+TEST(BearingLog, ABearingInTwoRecordingsCountsOnce) {
+  const LogFile first(recorded()), second(recorded() + recorded());
+  EXPECT_EQ(read_bearings({first.path(), second.path()}).bearings.size(),
+            read_bearings({first.path()}).bearings.size());
 }
 
 }  // namespace
