@@ -21,11 +21,12 @@ using Tangent = Eigen::Matrix<double, 3, 2>;
 constexpr double kWindow_s = 0.5;  // to either side of an instant: its bearings give one direction
 constexpr double kGap_s = 0.25;    // between an instant and the next bearing
 constexpr std::size_t kLeastBearings = 5, kLeastSeconds = 10;
-constexpr double kUnknownClock_s = 1.0;
+constexpr double kUnknownClock_s = 3.0;
+constexpr double kReach_s = 10.0;  // between the times of two stations, as stamped: they can meet
 constexpr double kMostSd_s = 0.1;
 constexpr double kMostNoise = 0.5;  // of the information: the object hardly moves
-constexpr int kRounds = 12;
-constexpr double kSettled_s = 1e-4;
+constexpr int kRounds = 40;
+constexpr double kSettled_s = 1e-4, kSettledSds = 0.5, kSameWeights = 0.01;
 constexpr Eigen::Index kDelay = 0, kTurn = 1, kShift = 4, kUnknowns = 7;  // of a station
 
 Tangent tangent_at(const Vector3d& direction) {
@@ -101,27 +102,28 @@ class Fit {
     for (const TimedBearing& one : bearings)
       paths[{one.station, one.boot_id, one.track_id}].push_back(one);
     for (auto& [key, path] : paths) paths_.push_back(std::move(path));
-    if (!bearings.empty()) {
-      first_s_ = std::ceil(bearings.front().time_s);
-      last_s_ = bearings.back().time_s;
-    }
     for (std::size_t i = 0; i < stations.size(); ++i) set_prior(i, stations[i]);
   }
 
   DelayFit run() {
     DelayFit fit;
-    for (int round = 0; round < kRounds; ++round) {
-      const double before_s = x_(index(wanted_));
-      if (!improve(fit)) return fit;
-      if (std::abs(x_(index(wanted_)) - before_s) < kSettled_s) break;
-    }
     const Eigen::Index at = index(wanted_) + kDelay;
+    double step_s = 1.0;
+    bool has_weights = false;  // those of wrong seconds change long after the delay seems to rest
+    for (int round = 0; round < kRounds && !(has_weights && step_s < kSettled_s); ++round) {
+      const double before_s = x_(at), usual = usual_;
+      if (!improve(fit)) return fit;
+      step_s = std::abs(x_(at) - before_s);
+      has_weights = std::abs(usual_ - usual) < kSameWeights * usual_;
+    }
     if (noise_ > kMostNoise * data_(at, at)) return fit;
     const double scale2 = std::max(1.0, fit.misfit * fit.misfit);
     MatrixXd N = data_ / scale2 + MatrixXd(information_.asDiagonal());
     N(at, at) -= noise_ / scale2;
     const double sd_s = std::sqrt(N.ldlt().solve(VectorXd::Unit(x_.size(), at))(at));
-    if (sd_s < kMostSd_s) fit.late_s = Measured{x_(at), sd_s};
+    // Bearings at the ends of the windows, which come and go with each step, move it for ever.
+    const bool is_settled = step_s < std::max(kSettled_s, kSettledSds * sd_s);
+    if (is_settled && sd_s < kMostSd_s) fit.late_s = Measured{x_(at), sd_s};
     return fit;
   }
 
@@ -143,6 +145,19 @@ class Fit {
     information_(at + kTurn + 2) = information(errors.heading_sd_rad, kLeast_rad);
     for (const Eigen::Index axis : {0, 1, 2})
       information_(at + kShift + axis) = information(errors.position_sd_m, kLeast_m);
+  }
+
+  // The whole seconds, true time with the present delay, at which the wanted station has bearings.
+  std::vector<double> instants() const {
+    std::vector<double> all;
+    for (const Path& path : paths_) {
+      if (path.front().station != wanted_) continue;
+      for (const TimedBearing& one : path)
+        all.push_back(std::floor(one.time_s - x_(index(wanted_) + kDelay)));
+    }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
   }
 
   // The lines at a true instant, with the present delays. nullopt: too few; `several` is counted.
@@ -228,7 +243,7 @@ class Fit {
     data_ = MatrixXd::Zero(x_.size(), x_.size());
     noise_ = 0.0;
     VectorXd gradient = information_.cwiseProduct(x_);
-    for (double time_s = first_s_; time_s <= last_s_; time_s += 1.0) {
+    for (const double time_s : instants()) {
       auto meeting = meeting_at(time_s, fit.several);
       if (!meeting) continue;
       for (int i = 0; i < 3; ++i) {
@@ -262,18 +277,44 @@ class Fit {
 
   std::size_t wanted_;
   std::vector<Path> paths_;
-  double first_s_ = 0.0, last_s_ = -1.0;
   VectorXd x_, information_;  // the stations' errors; inverse variances of their priors
   MatrixXd data_;             // information of the bearings
   double noise_ = 0.0;        // the part of it that comes from the noise of the rates alone
   double usual_ = 1e9;        // robust size of a meeting's residuals
 };
 
+// The wanted station, and those with bearings at about its times: others cannot meet it.
+std::vector<bool> can_meet(const std::vector<TimedBearing>& bearings, std::size_t stations,
+                           std::size_t wanted) {
+  std::vector<double> times_s;
+  for (const TimedBearing& one : bearings) {
+    if (one.station == wanted) times_s.push_back(one.time_s);
+  }
+  std::ranges::sort(times_s);
+  std::vector<bool> can(stations);
+  can[wanted] = true;
+  for (const TimedBearing& one : bearings) {
+    if (can[one.station]) continue;
+    const auto next = std::ranges::lower_bound(times_s, one.time_s - kReach_s);
+    can[one.station] = next != times_s.end() && *next <= one.time_s + kReach_s;
+  }
+  return can;
+}
+
 }  // namespace
 
 DelayFit fit_delay(std::vector<TimedBearing> bearings, const std::vector<LastingErrors>& stations,
                    std::size_t wanted) {
-  return Fit(std::move(bearings), stations, wanted).run();
+  const std::vector<bool> can = can_meet(bearings, stations.size(), wanted);
+  std::erase_if(bearings, [&](const TimedBearing& one) { return !can[one.station]; });
+  std::vector<std::size_t> number(stations.size());  // among those that can meet
+  std::vector<LastingErrors> errors;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    number[i] = errors.size();
+    if (can[i]) errors.push_back(stations[i]);
+  }
+  for (TimedBearing& one : bearings) one.station = number[one.station];
+  return Fit(std::move(bearings), errors, number[wanted]).run();
 }
 
 }  // namespace ols::calibration

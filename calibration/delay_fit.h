@@ -40,7 +40,7 @@ struct LastingErrors {
 
 struct DelayFit {
   // By how much the station's times are late; negative: they are early. nullopt if there are too
-  // few seconds, or if its 1-sigma would exceed 0.1 s.
+  // few seconds, if the fit did not settle, or if its 1-sigma would exceed 0.1 s.
   std::optional<Measured> late_s;
   std::size_t seconds = 0;  // at which the station and another one saw the object
   std::size_t several = 0;  // seconds left out, because a station saw several objects
@@ -49,8 +49,10 @@ struct DelayFit {
   double misfit = 0.0;
 };
 
-// `stations`: one for each station. `wanted`: the station whose times are examined; nothing is
-// assumed of its clock. All stations must see the same object.
+// `stations`: one for each station. `wanted`: the station whose times are examined. Its delay is
+// expected to be 0 +- 3 s, whatever its clock_sd_s. All stations must see the same object. Time and
+// memory do not grow with gaps between bearings, nor with stations that have no bearings within
+// 10 s of those of `wanted`.
 DelayFit fit_delay(std::vector<TimedBearing> bearings, const std::vector<LastingErrors>& stations,
                    std::size_t wanted);
 

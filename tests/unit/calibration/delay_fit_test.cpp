@@ -81,6 +81,55 @@ TEST(DelayFit, TheDelayIsFoundAsExactlyAsStated) {
   }
 }
 
+// Network cameras are late by up to 2.5 s.
+TEST(DelayFit, ALongDelayIsFound) {
+  const Site site;
+  for (const double late_s : {2.0, 2.5, -2.0}) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      SCOPED_TRACE(testing::Message() << late_s << " s, seed " << seed);
+      std::mt19937_64 random(seed);
+      const DelayFit fit = fit_delay(site.bearings(eights, late_s, random), site.stated(), 0);
+      ASSERT_TRUE(fit.late_s);
+      EXPECT_NEAR(fit.late_s->value, late_s, 0.015);
+    }
+  }
+}
+
+// Far beyond what is expected, the fit wanders for many rounds, and would end anywhere.
+TEST(DelayFit, AHugeDelayIsFoundOrRefused) {
+  const Site site;
+  for (const double late_s : {8.0, -8.0, 9.0}) {
+    SCOPED_TRACE(late_s);
+    std::mt19937_64 random(1);
+    const DelayFit fit = fit_delay(site.bearings(eights, late_s, random), site.stated(), 0);
+    if (fit.late_s) EXPECT_NEAR(fit.late_s->value, late_s, 0.015);
+  }
+}
+
+// A wrong time of 1970, and the stations of other days, would take hours and gigabytes.
+TEST(DelayFit, GapsAndStationsOfOtherDaysTakeNoTime) {
+  const Site site;
+  std::mt19937_64 random(1);
+  const auto good = site.bearings(eights, 0.2, random);
+  auto stations = site.stated();
+  auto all = good;
+  for (const std::size_t station : {0U, 1U}) {
+    all.push_back(good.front());
+    all.back().station = station;
+    all.back().time_s = -1.7e9;
+  }
+  for (int other = 0; other < 2000; ++other) {
+    all.push_back(good.front());
+    all.back().station = stations.size();
+    all.back().time_s = 1e5 + other;
+    stations.push_back(site.errors);
+  }
+  const DelayFit alone = fit_delay(good, site.stated(), 0), fit = fit_delay(all, stations, 0);
+  ASSERT_TRUE(alone.late_s && fit.late_s);
+  EXPECT_EQ(fit.late_s->value, alone.late_s->value);
+  EXPECT_EQ(fit.late_s->sd, alone.late_s->sd);
+}
+
 TEST(DelayFit, AnObjectThatDoesNotMoveShowsNoDelay) {
   const Site site;
   std::mt19937_64 random(1);
