@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "geometry/direction.h"
 #include "geometry/median.h"
 
 namespace ols::calibration {
@@ -30,17 +31,7 @@ constexpr double kSettled_s = 1e-4, kSettledSds = 0.5, kSameWeights = 0.01;
 constexpr Eigen::Index kDelay = 0, kTurn = 1, kShift = 4, kUnknowns = 7;  // of a station
 
 Tangent tangent_at(const Vector3d& direction) {
-  const Vector3d other = std::abs(direction.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
-  Tangent tangent;
-  tangent.col(0) = direction.cross(other).normalized();
-  tangent.col(1) = direction.cross(tangent.col(0));
-  return tangent;
-}
-
-Matrix3d skew(const Vector3d& v) {
-  Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
+  return tangent_basis(azimuth_elevation_from_enu(direction));
 }
 
 // A line of sight at an instant.
@@ -210,13 +201,13 @@ class Fit {
       const Eigen::Index at = index(line.station), row = 2 * static_cast<Eigen::Index>(i);
       const Vector3d way = meeting.at_m - line.camera_m - x_.segment<3>(at + kShift);
       const Vector3d u = way.normalized(), turn = x_.segment<3>(at + kTurn);
-      const Eigen::Matrix<double, 2, 3> across =
-          tangent_at(line.direction).transpose() / line.sd_rad;
+      const Tangent tangent = tangent_at(line.direction);
+      const Eigen::Matrix<double, 2, 3> across = tangent.transpose() / line.sd_rad;
       e.r.segment<2>(row) = across * (u - line.direction - turn.cross(line.direction));
       e.by_place.middleRows<2>(row) =
           across * (Matrix3d::Identity() - u * u.transpose()) / way.norm();
       e.by_unknowns.block<2, 1>(row, at + kDelay) = -across * line.rate;
-      e.by_unknowns.block<2, 3>(row, at + kTurn) = across * skew(line.direction);
+      e.by_unknowns.block<2, 3>(row, at + kTurn) = -shift_by_rotation(tangent) / line.sd_rad;
       e.by_unknowns.block<2, 3>(row, at + kShift) = -e.by_place.middleRows<2>(row);
     }
     return e;
