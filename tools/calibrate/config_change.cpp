@@ -17,6 +17,19 @@ constexpr std::size_t kLargestConfig = 1'000'000;
 
 }  // namespace
 
+void add_station(CLI::App& command, std::string& station) {
+  command
+      .add_option("--station", station,
+                  "its configuration, or its name: NAME is /etc/ols/NAME.toml")
+      ->required();
+}
+
+void add_state(CLI::App& command, std::string& folder) {
+  command.add_option("--state", folder,
+                     "folder of its calibrations; else calibrations/ID in the configured "
+                     "state_folder");
+}
+
 std::string config_path(const std::string& station) {
   const bool is_path = station.find('/') != std::string::npos || station.ends_with(".toml");
   return is_path ? station : kConfigFolder + station + ".toml";

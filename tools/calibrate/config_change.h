@@ -1,11 +1,17 @@
 // Changes a station's configuration after a measurement: finds it, tells what changes, and writes.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "tools/setup/flat_toml.h"
 
 namespace ols::calibration {
+
+// The options of a command that names a station by its configuration, and optionally the folder of
+// its calibrations.
+void add_station(CLI::App& command, std::string& station);
+void add_state(CLI::App& command, std::string& folder);
 
 // The path of a station's configuration, which a person states as a path or as a name: NAME is
 // /etc/ols/NAME.toml.

@@ -124,10 +124,7 @@ CLI::App* add_delay(CLI::App& app, DelayOptions& o) {
       "delay",
       "The constant delay of a camera's pictures, out of recordings in which other stations saw "
       "the same object. One object that moves fast, to and fro, for a minute or more.");
-  delay
-      ->add_option("--station", o.station,
-                   "its configuration, or its name: NAME is /etc/ols/NAME.toml")
-      ->required();
+  add_station(*delay, o.station);
   delay->add_option("--recording", o.recordings, "log of the bus, as ols-logger writes it; several")
       ->required();
   delay->add_flag("--write", o.write, "change [camera] of the station's configuration");

@@ -116,13 +116,8 @@ CLI::App* add_mount(CLI::App& app, MountOptions& o) {
       "mount",
       "Gain, sign, delay, backlash and scatter of an ONVIF camera's position reports, by its own "
       "pictures: turns it a little to all sides. Turn it to still scenery before.");
-  mount
-      ->add_option("--station", o.station,
-                   "its configuration, or its name: NAME is /etc/ols/NAME.toml")
-      ->required();
-  mount->add_option(
-      "--state", o.state_folder,
-      "folder of its calibrations; else calibrations/ID in the configured state_folder");
+  add_station(*mount, o.station);
+  add_state(*mount, o.state_folder);
   mount->add_option("--lcm-url", o.lcm_url, "bus of the site; else the station's")
       ->envname("LCM_DEFAULT_URL");
   trust::add_trust_options(*mount, o.trust);

@@ -11,6 +11,7 @@
 #include "base/process/shutdown.h"
 #include "base/trust/trust_options.h"
 #include "tools/calibrate/calibration_store.h"
+#include "tools/calibrate/config_change.h"
 #include "tools/calibrate/procedure_end.h"
 #include "tools/calibrate/procedure_stages.h"
 #include "tools/calibrate/rectify.h"
@@ -22,11 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void add_common(CLI::App& app, ProcedureOptions& o) {
-  app.add_option("--station", o.station,
-                 "its configuration, or its name: NAME is /etc/ols/NAME.toml")
-      ->required();
-  app.add_option("--state", o.state_folder,
-                 "folder of its calibrations; else calibrations/ID in the configured state_folder");
+  add_station(app, o.station);
+  add_state(app, o.state_folder);
 }
 
 void add_script(CLI::App& app, ProcedureOptions& o) {

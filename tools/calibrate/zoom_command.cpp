@@ -18,6 +18,7 @@
 #include "conditions/printed.h"
 #include "tools/calibrate/calibrate_case.h"
 #include "tools/calibrate/command_report.h"
+#include "tools/calibrate/config_change.h"
 #include "tools/calibrate/procedure_stages.h"
 #include "tools/calibrate/station_link.h"
 #include "wire/orders.h"
@@ -209,12 +210,8 @@ CLI::App* add_zoom(CLI::App& app, ZoomOptions& o) {
       "zoom",
       "The table of a motorised zoom lens: drives it through its travel, and at each position the "
       "unit a little to both sides. Turn the station to still scenery before.");
-  zoom->add_option("--station", o.station,
-                   "its configuration, or its name: NAME is /etc/ols/NAME.toml")
-      ->required();
-  zoom->add_option(
-      "--state", o.state_folder,
-      "folder of its calibrations; else calibrations/ID in the configured state_folder");
+  add_station(*zoom, o.station);
+  add_state(*zoom, o.state_folder);
   zoom->add_option("--lcm-url", o.lcm_url, "bus of the site; else the station's")
       ->envname("LCM_DEFAULT_URL");
   trust::add_trust_options(*zoom, o.trust);
