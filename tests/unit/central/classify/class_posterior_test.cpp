@@ -90,9 +90,9 @@ TEST(ClassPosterior, FlickerIsOfTheStationWithTheLeastNoiseOfOutlines) {
   StationSizes beating, noisy, without_outlines;
   for (int i = 0; i < 5; ++i) {
     const double size_m = 1.0 + 0.3 * std::sin(2.0 * i);
-    beating.push_back({size_m, 0.25, 0.01, 0.0, 0.15 * i});
-    noisy.push_back({1.0, 0.2, 0.2, 0.0, 0.15 * i});
-    without_outlines.push_back({1.2, 0.1, 0.0, 0.0, 0.15 * i});
+    beating.push_back({size_m, 0.25, 0.01, 0.0, 0.2 * i});
+    noisy.push_back({1.0, 0.2, 0.2, 0.0, 0.2 * i});
+    without_outlines.push_back({1.2, 0.1, 0.0, 0.0, 0.2 * i});
   }
   const double flicker = look_at({beating}, {}, {}, 0.0, 1.0).flicker.value;
   const ClassLook look = look_at({noisy, beating, without_outlines}, {}, {}, 0.0, 1.0);
@@ -100,7 +100,7 @@ TEST(ClassPosterior, FlickerIsOfTheStationWithTheLeastNoiseOfOutlines) {
   EXPECT_EQ(look.flicker.value, flicker);
   EXPECT_NEAR(look.size_m.value, 1.2, 1e-9) << "of the station whose size is the most certain";
   StationSizes few(beating.begin(), beating.end() - 1), within_less = beating;
-  within_less.back().time_s = 0.46;
+  for (SeenSize& one : within_less) one.time_s *= 0.5;
   for (const StationSizes& sizes : {few, within_less})
     EXPECT_EQ(look_at({sizes}, {}, {}, 0.0, 1.0).flicker.sd, 0.0);
 }

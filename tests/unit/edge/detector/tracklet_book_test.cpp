@@ -210,7 +210,8 @@ TEST(TrackletBook, WhileTheCameraMovesWhatCreepsBeforeTheGroundIsNoObject) {
   EXPECT_EQ(confirmed_in_sway(0.5, 0.3), 0) << "creeps";
   EXPECT_EQ(confirmed_in_sway(0.0, 0.3), 1) << "the camera rests";
   EXPECT_EQ(confirmed_in_sway(0.5, 1.0), 1) << "travels";
-  EXPECT_EQ(confirmed_in_sway(0.5, 1.0, 60), 1) << "travels; the time before does not count";
+  EXPECT_EQ(confirmed_in_sway(1.0, 1.0, 60), 1) << "travels; the time before does not count";
+  EXPECT_EQ(confirmed_in_sway(0.1, 0.15), 1) << "the camera rests, but for the error of its motion";
 }
 
 TEST(TrackletBook, WhatFlewIsNotDoubtedWhenItHoversBeforeTheGround) {
