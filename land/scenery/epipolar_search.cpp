@@ -200,4 +200,32 @@ std::optional<PatchPlace> find_patch(const ScenePyramid& pyramid, const ScenePyr
   return place;
 }
 
+double likest_beside(const ScenePyramid& pyramid, int level, const Eigen::Vector2d& px,
+                     double slope, double reach_px) {
+  const cv::Mat1f& image = pyramid.levels[static_cast<std::size_t>(level)];
+  const Eigen::Vector2d middle = to_level(px, level);
+  const auto patch = patch_at(image, middle, slope);
+  if (!patch) return 0.0;
+  const int reach = static_cast<int>(reach_px);
+  cv::Mat1f strip(kSide + 2, 2 * reach + kSide);  // a row above and one below the line
+  for (int i = 0; i < strip.cols; ++i) {
+    const double right = i - reach - kPatchHalf;
+    for (int j = 0; j < strip.rows; ++j) {
+      const float value =
+          sample(image, middle.x() + right, middle.y() + slope * right + j - kPatchHalf - 1);
+      strip(j, i) = std::isnan(value) ? 0.0F : value;
+    }
+  }
+  cv::Mat1f scores;
+  cv::matchTemplate(strip, *patch, scores, cv::TM_CCOEFF_NORMED);
+  double likest = 0.0;
+  for (int i = 0; i < scores.cols; ++i) {
+    if (std::abs(i - reach) <= kOtherPlace_px) continue;
+    for (int j = 0; j < scores.rows; ++j) {
+      if (scores(j, i) <= 1.01F) likest = std::max(likest, static_cast<double>(scores(j, i)));
+    }
+  }
+  return likest;
+}
+
 }  // namespace ols::scenery

@@ -59,4 +59,11 @@ struct SearchLine {
 std::optional<PatchPlace> find_patch(const ScenePyramid& pyramid, const ScenePyramid& other,
                                      int level, const Eigen::Vector2d& px, const SearchLine& line);
 
+// The highest normalised correlation of the patch with other places of its own panorama, up to
+// `reach_px` (of the level) to either side along `slope`; 0 if there is none. Windows of a house
+// are alike: if the other station sees only some of them, the best place there may be another
+// window.
+double likest_beside(const ScenePyramid& pyramid, int level, const Eigen::Vector2d& px,
+                     double slope, double reach_px);
+
 }  // namespace ols::scenery

@@ -62,7 +62,7 @@ class Adjustment {
   }
   PatchFit fit() const {
     const Matrix8 covariance = normal_.inverse() * mean_square_;
-    return {centre_, covariance.diagonal().head<2>().cwiseSqrt(), correlation()};
+    return {centre_, covariance.diagonal().head<2>().cwiseSqrt(), shape_, correlation()};
   }
 
  private:
@@ -154,6 +154,29 @@ std::optional<PatchFit> fit_patch(const cv::Mat1f& image, const Eigen::Vector2d&
   Adjustment adjustment(std::move(*pixels), other, start, shape);
   if (!adjustment.settle()) return std::nullopt;
   return adjustment.fit();
+}
+
+Eigen::Vector2d deciding_offset(const cv::Mat1f& image, const Eigen::Vector2d& px, double slope) {
+  constexpr double kWeightSd_px = 0.7 * kHalf;
+  const auto change = [&](int i, int j) {
+    const double x = px.x() + i, y = px.y() + j + slope * i;
+    const float step = sample(image, x + 1.0, y + slope) - sample(image, x - 1.0, y - slope);
+    return static_cast<double>(step * step);
+  };
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double most = 0.0;
+  for (int j = -kPatchHalf; j <= kPatchHalf; ++j) {
+    for (int i = -kPatchHalf; i <= kPatchHalf; ++i) {
+      // Three rows together: less noise.
+      const double sum = change(i, j - 1) + change(i, j) + change(i, j + 1);
+      const double weighted =
+          sum * std::exp(-0.5 * (i * i + j * j) / (kWeightSd_px * kWeightSd_px));
+      if (!(weighted > most)) continue;  // NaN beside the picture
+      most = weighted;
+      best = {i, j};
+    }
+  }
+  return best;
 }
 
 }  // namespace ols::scenery

@@ -26,13 +26,17 @@ constexpr double kAcrossSigmas = 2.5, kGrownAcrossSigmas = 3.0;
 // Of what counts in the end.
 constexpr double kSureFitted = 0.93, kSureSupport = 0.2;
 constexpr double kConflictSigmas = 4.0;
+// A place does not count if its own panorama has the like of it (a correlation above kRepeated)
+// within kRepeat_m beside it: windows of a house.
+constexpr double kRepeated = 0.85, kRepeat_m = 10.0;
 constexpr int kLeastAlike = 2;                            // others nearby at the same range
 constexpr double kDepth_m = 3.0;                          // of a tree or a house
 constexpr double kNearest_px = 8.0, kFarthest_px = 60.0;  // of what is beside a place, in its level
 
 struct Place {
   int level = 0;
-  Eigen::Vector2d px, other_px, sd_px;  // sd_px: by the fit
+  Eigen::Vector2d px, other_px, sd_px;   // centre of the patch; sd_px: by the fit
+  Eigen::Vector2d own_px, own_other_px;  // the place in the patch to which the range belongs
   double range_m = 0.0, m_per_px = 0.0;
   double fitted = 0.0;     // correlation
   double across_px = 0.0;  // how much lower than its epipolar line
@@ -47,6 +51,10 @@ double distance_px(const Eigen::Vector2d& one, const Eigen::Vector2d& two) {
 // Near, but the patches share less than half of their pixels.
 bool is_beside(double distance_px) {
   return distance_px > kNearest_px && distance_px < kFarthest_px;
+}
+
+bool is_unique(const PatchPlace& place) {
+  return 1.0 - place.score <= kUnique * (1.0 - place.second);
 }
 
 // Corners: where the brightness changes in every direction. The strongest one of each cell.
@@ -143,7 +151,7 @@ class Matcher {
       if (place.support >= kSureSupport) sure.push_back(place);
     }
     std::erase_if(sure, [&](const Place& place) {
-      return place.fitted < kSureFitted || !is_across(place, kAcrossSigmas);
+      return place.fitted < kSureFitted || !is_across(place, kAcrossSigmas) || is_repeated(place);
     });
     return sure;
   }
@@ -155,6 +163,12 @@ class Matcher {
   }
   bool is_across(const Place& place, double sigmas) const {
     return std::abs(across_sigmas(place)) <= sigmas;
+  }
+
+  bool is_repeated(const Place& place) const {
+    const double m_per_px = place.range_m * panorama_.rad_per_px * (1 << place.level);
+    const double slope = epipolar_slope(panorama_, other_, place.px, place.range_m);
+    return likest_beside(pyramid_, place.level, place.px, slope, kRepeat_m / m_per_px) > kRepeated;
   }
 
   void search_level(int level, std::vector<Place>& found) {
@@ -180,7 +194,7 @@ class Matcher {
         find_patch(pyramid_, other_pyramid_, level, px,
                    {ranges, beside_px, [&](double x) { return lowering_.px(x, middle_m); }});
     if (!patch || patch->score < kLeastScore) return std::nullopt;
-    if (1.0 - patch->score > kUnique * (1.0 - patch->second)) return std::nullopt;
+    if (!is_unique(*patch)) return std::nullopt;
     const auto place = fitted(level, px, *patch, kLeastFitted);
     if (!place || !leads_back(*place, beside_px)) return std::nullopt;
     return place;
@@ -205,7 +219,16 @@ class Matcher {
     place.m_per_px = std::abs(*beside_m - *found_m);
     const Eigen::Vector3d p_ecef = point_ecef(panorama_, px, place.range_m);
     place.across_px = place.other_px.y() - pixel_of(other_, p_ecef).px.y();
+    set_own(place, *fit, slope);
     return place;
+  }
+  void set_own(Place& place, const PatchFit& fit, double slope) const {
+    const Eigen::Vector2d at = to_level(place.px, place.level);
+    Eigen::Vector2d off =
+        deciding_offset(pyramid_.levels[static_cast<std::size_t>(place.level)], at, slope);
+    place.own_other_px = from_level(Eigen::Vector2d(fit.px + fit.shape * off), place.level);
+    off.y() += slope * off.x();
+    place.own_px = from_level(Eigen::Vector2d(at + off), place.level);
   }
   bool leads_back(const Place& place, int beside_px) const {
     const auto ranges = possible_other_(direction_of(other_, place.other_px));
@@ -268,6 +291,7 @@ class Matcher {
         find_patch(pyramid_, other_pyramid_, level, px,
                    {ranges, kBeside_px, [&](double x) { return lowering_.px(x, place.range_m); }});
     if (!patch || patch->score < kLeastScore) return std::nullopt;
+    if (!is_unique(*patch)) return std::nullopt;
     const auto one = fitted(level, px, *patch, kLeastGrown);
     if (!one || !is_across(*one, kGrownAcrossSigmas)) return std::nullopt;
     if (std::abs(one->range_m - place.range_m) > 1.5 * depth_m) return std::nullopt;
@@ -323,9 +347,12 @@ std::vector<SceneryRange> scenery_ranges(const ScenePanorama& panorama, const Sc
   std::vector<SceneryRange> ranges;
   for (const Place& place : places) {
     if (!is_supported(place, places)) continue;
-    ranges.push_back({direction_of(panorama, place.px), place.range_m, white_sd_m(place),
-                      range_sd_m(panorama, other, place.px, place.other_px.x(), place.range_m),
-                      place.px, place.other_px});
+    const auto own_m =
+        range_m(panorama, other, place.own_px, place.own_other_px.x(), place.range_m);
+    if (!own_m) continue;
+    ranges.push_back({direction_of(panorama, place.own_px), *own_m, white_sd_m(place),
+                      range_sd_m(panorama, other, place.own_px, place.own_other_px.x(), *own_m),
+                      place.own_px, place.own_other_px});
   }
   return ranges;
 }

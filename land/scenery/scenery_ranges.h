@@ -8,6 +8,12 @@
 // 3. Around each place further corners are looked for at about the same range. Things have an
 //    extent: where the place is right, many are found; where it is wrong, few. Only places with
 //    enough of these count.
+// 4. What repeats along the line in the first panorama itself, such as the windows of a house, does
+//    not count.
+//
+// The range is given to the place in the patch where the brightness changes most along the line. If
+// a corner is found beside the edge of a tree, the patch moves with the tree, and the range is that
+// of the edge.
 //
 // What stands up is found: houses, trees, masts, steep slopes. Level ground is seldom found.
 #pragma once

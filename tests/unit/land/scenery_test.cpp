@@ -9,6 +9,8 @@
 
 #include "geometry/angles.h"
 #include "land/refraction.h"
+#include "land/scenery/epipolar_search.h"
+#include "land/scenery/patch_fit.h"
 #include "land/scenery/possible_ranges.h"
 #include "land/scenery/scene_panorama.h"
 #include "land/scenery/scenery_ranges.h"
@@ -128,6 +130,22 @@ TEST(SceneryRanges, WallsAreFoundWithinTheirSigmasThoughThePosesErr) {
   EXPECT_EQ(wrong, 0);
   std::ranges::sort(white_sigmas);
   EXPECT_LT(white_sigmas[white_sigmas.size() / 2], 1.0);
+}
+
+TEST(PatchFit, AnEdgeDecidesWhereAPatchIsFound) {
+  cv::Mat1f image(40, 40, 100.0F);
+  image.colRange(0, 24) = 180.0F;
+  const Eigen::Vector2d off = deciding_offset(image, {20.0, 20.0}, 0.0);
+  EXPECT_NEAR(20.0 + off.x(), 23.5, 1.0);
+}
+
+TEST(EpipolarSearch, AWindowHasItsLikeBesideIt) {
+  ScenePanorama houses{.gray = cv::Mat1b(60, 240, std::uint8_t{160})};
+  for (int x = 10; x < 240; x += 40) houses.gray(cv::Rect(x, 20, 14, 18)) = 40;
+  const ScenePyramid pyramid = pyramid_of(houses, 1);
+  const Eigen::Vector2d corner(90.0, 20.0);
+  EXPECT_GT(likest_beside(pyramid, 0, corner, 0.0, 45.0), 0.99);
+  EXPECT_LT(likest_beside(pyramid, 0, corner, 0.0, 20.0), 0.8);
 }
 
 // The same walls, painted anew: nothing in one picture is in the other.
