@@ -44,18 +44,10 @@ Taken ProcedureSession::add(FrameFile frame, bool is_view) {
   picture.stream().write(reinterpret_cast<const char*>(frame.file.data()),
                          static_cast<std::streamsize>(frame.file.size()));
   picture.commit();
-  const UnitReading& reading = frame.taken.reading;
-  const nlohmann::ordered_json line{{"pose", poses_},
-                                    {"file", std::string("frames/") + name},
-                                    {"utime_us", frame.taken.utime_us},
-                                    {"pan_counts", reading.pan.counts},
-                                    {"tilt_counts", reading.tilt.counts},
-                                    {"approach_pan", reading.pan.approach},
-                                    {"approach_tilt", reading.tilt.approach},
-                                    {"pan_rad", frame.taken.angles.pan_rad},
-                                    {"tilt_rad", frame.taken.angles.tilt_rad},
-                                    {"is_view", is_view}};
-  append_line(folder_ / "frames.jsonl", line.dump());
+  const StoredPicture stored{
+      poses_, frames / name, frame.taken.utime_us, frame.taken.reading, frame.taken.angles,
+      is_view};
+  append_line(folder_ / kFramesFile, line_of(stored, folder_));
   return std::move(frame.taken);
 }
 
@@ -74,26 +66,10 @@ void ProcedureSession::note(const JournalEntry& entry) const {
 }
 
 void ProcedureSession::read_frames() {
-  const fs::path path = folder_ / "frames.jsonl";
-  std::istringstream lines(whole_lines(path));
-  int number = 0;
-  for (std::string text; std::getline(lines, text);) {
-    ++number;
-    Frame frame;
-    Taken& taken = frame.taken;
-    try {
-      const auto line = nlohmann::json::parse(text);
-      taken.pose = line.at("pose");
-      taken.utime_us = line.at("utime_us");
-      taken.reading.pan = {line.at("pan_counts"), 0.0, line.at("approach_pan")};
-      taken.reading.tilt = {line.at("tilt_counts"), 0.0, line.at("approach_tilt")};
-      taken.angles = {line.at("pan_rad"), line.at("tilt_rad")};
-      frame.file = folder_ / line.at("file").get<std::string>();
-    } catch (const nlohmann::json::exception& error) {
-      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
-    }
-    poses_ = std::max(poses_, taken.pose);
-    frames_[taken.pose] = std::move(frame);
+  const std::string lines = whole_lines(folder_ / kFramesFile);
+  for (StoredPicture& picture : stored_pictures(folder_, lines)) {
+    poses_ = std::max(poses_, picture.pose);
+    frames_[picture.pose] = std::move(picture);
   }
 }
 
@@ -131,15 +107,11 @@ JournalEntry ProcedureSession::replayed(const Order& order) {
 Taken ProcedureSession::stored(std::int64_t pose) const {
   const auto frame = frames_.find(pose);
   if (frame == frames_.end()) {
-    throw std::runtime_error((folder_ / "frames.jsonl").string() + ": has no picture " +
+    throw std::runtime_error((folder_ / kFramesFile).string() + ": has no picture " +
                              std::to_string(pose));
   }
-  Taken taken = frame->second.taken;
-  taken.gray = cv::imread(frame->second.file.string(), cv::IMREAD_GRAYSCALE);
-  if (taken.gray.empty()) {
-    throw std::runtime_error(frame->second.file.string() + ": cannot be read");
-  }
-  return taken;
+  const StoredPicture& picture = frame->second;
+  return {gray_of(picture), picture.reading, picture.angles, picture.utime_us, pose};
 }
 
 fs::path ProcedureSession::next_result() {

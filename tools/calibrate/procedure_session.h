@@ -12,6 +12,7 @@
 
 #include "tools/calibrate/procedure_journal.h"
 #include "tools/calibrate/station_link.h"
+#include "tools/calibrate/stored_pictures.h"
 
 namespace ols::calibration {
 
@@ -56,12 +57,8 @@ class ProcedureSession {
   std::int64_t poses_ = 0;
   int results_ = 0;
   std::deque<JournalEntry> replay_;
-  struct Frame {
-    std::filesystem::path file;
-    Taken taken;  // without its picture
-  };
   // By the picture's number; only pictures from before the interruption.
-  std::map<std::int64_t, Frame> frames_;
+  std::map<std::int64_t, StoredPicture> frames_;
 };
 
 }  // namespace ols::calibration

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
@@ -20,45 +18,16 @@ namespace fs = std::filesystem;
 constexpr std::size_t kFewest = 3;  // views
 constexpr double kArcsec = kPi / 648000.0;
 
-std::vector<StoredView> all_views(const fs::path& calibration) {
-  std::vector<StoredView> views;
-  const fs::path path = calibration / "frames.jsonl";
-  std::ifstream file(path);
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    const auto object = nlohmann::json::parse(line, nullptr, false);
-    StoredView view;
-    try {
-      // Stars, the sun behind its filter and a drone are no permanent scenery.
-      if (!object.value("is_view", true)) continue;
-      view.file = (calibration / object.at("file").get<std::string>()).string();
-      view.angles = {object.at("pan_rad").get<double>(), object.at("tilt_rad").get<double>()};
-      view.approach_pan = object.at("approach_pan").get<int>();
-      view.approach_tilt = object.at("approach_tilt").get<int>();
-    } catch (const nlohmann::json::exception& error) {
-      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
-    }
-    views.push_back(std::move(view));
-  }
-  if (views.empty()) {
-    throw std::runtime_error(path.string() +
-                             ": has no pictures of scenery to compare with: take them with "
-                             "`ols-calibrate sweep`, and check with --panorama");
-  }
-  return views;
-}
-
 }  // namespace
 
-std::vector<StoredView> views_of(const fs::path& calibration) {
+std::vector<StoredPicture> views_of(const fs::path& calibration) {
   constexpr double kApart_rad = radians(20.0);
   constexpr std::size_t kMost = 6;
-  const std::vector<StoredView> all = all_views(calibration);
-  std::vector<StoredView> views{all.front()};
-  const auto apart = [&views](const StoredView& one) {
+  const std::vector<StoredPicture> all = stored_views(calibration);
+  std::vector<StoredPicture> views{all.front()};
+  const auto apart = [&views](const StoredPicture& one) {
     double least = std::numeric_limits<double>::infinity();
-    for (const StoredView& other : views) {
+    for (const StoredPicture& other : views) {
       least = std::min(least, std::abs(one.angles.pan_rad - other.angles.pan_rad));
     }
     return least;
@@ -73,19 +42,20 @@ std::vector<StoredView> views_of(const fs::path& calibration) {
 
 std::optional<Order> ViewStage::next() {
   if (at_ >= views_.size()) return std::nullopt;
-  const StoredView& view = views_[at_];
+  const StoredPicture& view = views_[at_];
   Order order;
   order.step = "view " + std::to_string(at_ + 1) + " of " + std::to_string(views_.size()) +
                (again_ ? ", once more" : "");
   order.shot.angles = view.angles;
-  order.shot.approach_pan = view.approach_pan;
-  order.shot.approach_tilt = view.approach_tilt;
+  order.shot.approach_pan = view.reading.pan.approach;
+  order.shot.approach_tilt = view.reading.tilt.approach;
   return order;
 }
 
 void ViewStage::taken(const Taken& picture) {
-  const StoredView& view = views_[at_];
-  const cv::Mat stored = cv::imread(view.file, cv::IMREAD_GRAYSCALE);
+  const StoredPicture& view = views_[at_];
+  // A damaged file is one view that is not recognised.
+  const cv::Mat stored = cv::imread(view.file.string(), cv::IMREAD_GRAYSCALE);
   const auto offset = station::offset_of({stored, view.angles}, {picture.gray, picture.angles},
                                          model_.geometry, angle_sd_rad_);
   if (offset) {

@@ -9,23 +9,18 @@
 #include "calibration/procedure/stage.h"
 #include "edge/calibration/drift_watch.h"
 #include "geometry/station_model.h"
+#include "tools/calibrate/stored_pictures.h"
 
 namespace ols::calibration {
 
-struct StoredView {
-  std::string file;  // path of the picture
-  PanTilt angles;    // as the unit reported them
-  int approach_pan = 1, approach_tilt = 1;
-};
-
 // Chooses up to six pictures of scenery from a calibration's folder (frames.jsonl), as far apart in
 // pan as possible. Throws std::runtime_error naming file and line.
-std::vector<StoredView> views_of(const std::filesystem::path& calibration);
+std::vector<StoredPicture> views_of(const std::filesystem::path& calibration);
 
 class ViewStage : public Stage {
  public:
   // `angle_sd_rad`: 1-sigma of each angle of the unit at rest.
-  ViewStage(std::vector<StoredView> views, const StationModel& model, double angle_sd_rad)
+  ViewStage(std::vector<StoredPicture> views, const StationModel& model, double angle_sd_rad)
       : views_(std::move(views)), model_(model), angle_sd_rad_(angle_sd_rad) {}
 
   std::optional<Order> next() override;
@@ -45,7 +40,7 @@ class ViewStage : public Stage {
   void step();
   void end_round();
 
-  std::vector<StoredView> views_;
+  std::vector<StoredPicture> views_;
   StationModel model_;
   double angle_sd_rad_;
   std::size_t at_ = 0;

@@ -26,9 +26,13 @@ class ViewStageTest : public testing::Test {
     for (std::size_t i = 0; i < pans_deg_.size(); ++i) {
       const std::string file = std::to_string(i) + ".png";
       cv::imwrite(folder_.path() + "/" + file, moved_scene(static_cast<int>(i), 0.0));
-      list << R"({"file": ")" << file << R"(", "pan_rad": )" << radians(pans_deg_[i])
-           << R"(, "tilt_rad": 0.0, "approach_pan": 1, "approach_tilt": -1})" << '\n';
+      list << line(file, radians(pans_deg_[i]), true) << '\n';
     }
+  }
+  std::string line(const std::string& file, double pan_rad, bool is_view) const {
+    const UnitReading reading{{.approach = 1}, {.approach = -1}};
+    return line_of({1, folder_.path() + "/" + file, 0, reading, {pan_rad, 0.0}, is_view},
+                   folder_.path());
   }
   // Each view moved by so many pixels, in every round; how many pictures were wanted.
   int look(ViewStage& stage, const std::vector<double>& right_px) {
@@ -103,7 +107,7 @@ class CrowdedPanorama : public ViewStageTest {
 TEST_F(CrowdedPanorama, ViewsAreAsFarApartAsThereAre) {
   const auto views = views_of(folder_.path());
   std::vector<int> pans;
-  for (const StoredView& one : views) {
+  for (const StoredPicture& one : views) {
     pans.push_back(static_cast<int>(std::lround(degrees(one.angles.pan_rad))));
   }
   EXPECT_EQ(pans, (std::vector<int>{0, 100, -90, 30}));
@@ -113,20 +117,18 @@ TEST_F(CrowdedPanorama, ViewsAreAsFarApartAsThereAre) {
 TEST_F(CrowdedPanorama, OnlySceneryIsAView) {
   std::ofstream list(folder_.path() + "/frames.jsonl", std::ios::app);
   for (const double pan_deg : {-150.0, 60.0, 150.0}) {
-    list << R"({"file": "star.png", "pan_rad": )" << radians(pan_deg)
-         << R"(, "tilt_rad": 0.4, "approach_pan": 1, "approach_tilt": 1, "is_view": false})"
-         << '\n';
+    list << line("star.png", radians(pan_deg), false) << '\n';
   }
   list.close();
-  for (const StoredView& one : views_of(folder_.path())) {
-    EXPECT_EQ(one.file.find("star"), std::string::npos) << degrees(one.angles.pan_rad);
+  for (const StoredPicture& one : views_of(folder_.path())) {
+    EXPECT_NE(one.file.filename(), "star.png") << degrees(one.angles.pan_rad);
   }
 }
 
 TEST(ViewsOf, ACalibrationByStarsAloneHasNone) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() + "/frames.jsonl")
-      << R"({"file": "a.png", "pan_rad": 0, "tilt_rad": 0, "is_view": false})" << '\n';
+      << line_of({1, folder.path() + "/a.png", 0, {}, {}, false}, folder.path()) << '\n';
   EXPECT_THAT([&] { views_of(folder.path()); }, testing::ThrowsMessage<std::runtime_error>(
                                                     testing::HasSubstr("no pictures of scenery")));
 }
