@@ -1,4 +1,5 @@
-// The coverings of the land (buildings and woods), and a search for the coverings above a place.
+// The coverings of the land (buildings, woods, and scenery that stations have measured), and a
+// search for the coverings above a place.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +9,8 @@
 
 namespace ols::land {
 
-enum class CoveringKind { kBuilding, kWood };
+// kScenery: a point that two stations have seen (land/scenery/scenery_ranges.h).
+enum class CoveringKind { kBuilding, kWood, kScenery };
 
 // One or more rings of corners (longitude, latitude) [rad]. Outer rings and holes are not
 // distinguished: a place is inside if an odd number of rings contain it. A ring's last corner is
@@ -16,7 +18,8 @@ enum class CoveringKind { kBuilding, kWood };
 struct Covering {
   CoveringKind kind = CoveringKind::kBuilding;
   std::vector<std::vector<Eigen::Vector2d>> rings;
-  // Height of the top above the ground; for a building, above the lowest ground at its corners.
+  // Height of the top above the ground; for a building, above the lowest ground at its corners; for
+  // scenery, above the WGS84 ellipsoid.
   double height_m = 0.0;
   double sd_m = 0.0;  // 1-sigma of height_m
 };

@@ -1,5 +1,7 @@
 #include "land/manifest.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -13,7 +15,16 @@ using Json = nlohmann::json;
 
 constexpr const char* kFormat = "ols-land";
 constexpr double kHighest_m = 1000.0;  // of buildings and trees
+constexpr double kLowestLand_m = -500.0, kHighestLand_m = 10'000.0;
 constexpr int kMostRows = 1'000'000;
+
+struct KindName {
+  CoveringKind kind;
+  const char* name;
+};
+constexpr std::array kKinds{KindName{CoveringKind::kBuilding, "building"},
+                            KindName{CoveringKind::kWood, "wood"},
+                            KindName{CoveringKind::kScenery, "scenery"}};
 
 [[noreturn]] void fail(const std::string& key, const std::string& what) {
   throw std::invalid_argument(key + ": " + what);
@@ -96,9 +107,12 @@ Eigen::Vector2d corner_from(const Json& corner) {
 Covering covering_from(const Json& json) {
   Covering covering;
   const std::string kind = text(json, "kind");
-  if (kind != "building" && kind != "wood") fail("kind", "\"" + kind + "\" is not known");
-  covering.kind = kind == "wood" ? CoveringKind::kWood : CoveringKind::kBuilding;
-  covering.height_m = number(json, "height_m", 0.0, kHighest_m);
+  const auto named = std::ranges::find(kKinds, kind, &KindName::name);
+  if (named == kKinds.end()) fail("kind", "\"" + kind + "\" is not known");
+  covering.kind = named->kind;
+  const bool on_ground = covering.kind != CoveringKind::kScenery;
+  covering.height_m = number(json, "height_m", on_ground ? 0.0 : kLowestLand_m,
+                             on_ground ? kHighest_m : kHighestLand_m);
   covering.sd_m = number(json, "sd_m", 0.0, kHighest_m);
   for (const Json& ring : list(json, "rings")) {
     if (!ring.is_array() || ring.size() < 3) fail("rings", "a ring has fewer than three corners");
@@ -163,7 +177,7 @@ std::string to_text(const std::vector<Covering>& coverings) {
       Json& corners = rings.emplace_back(Json::array());
       for (const auto& at : ring) corners.push_back({degrees(at.x()), degrees(at.y())});
     }
-    json.push_back({{"kind", covering.kind == CoveringKind::kWood ? "wood" : "building"},
+    json.push_back({{"kind", std::ranges::find(kKinds, covering.kind, &KindName::kind)->name},
                     {"height_m", covering.height_m},
                     {"sd_m", covering.sd_m},
                     {"rings", rings}});

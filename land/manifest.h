@@ -12,7 +12,7 @@
 namespace ols::land {
 
 struct Source {
-  std::string file, kind;  // kind: "elevation", "buildings" or "woods"
+  std::string file, kind;  // kind: "elevation", "buildings", "woods" or "scenery"
   std::string licence;     // as the user of `ols-land import` stated it; for people
   std::string heights;     // the reference of the heights: a geoid's grid, "ellipsoid" or "ground"
   double sd_m = 0.0;       // 1-sigma of a height, as the user stated it

@@ -67,6 +67,7 @@ std::optional<SurfaceHeight> Terrain::ground(double latitude_rad, double longitu
 
 SurfaceHeight Terrain::top_of(std::size_t covering, const SurfaceHeight& ground) const {
   const Covering& one = coverings_[covering];
+  if (one.kind == CoveringKind::kScenery) return {one.height_m, one.sd_m};
   const bool is_level =
       one.kind == CoveringKind::kBuilding && std::isfinite(bases_[covering].height_m);
   const SurfaceHeight& base = is_level ? bases_[covering] : ground;

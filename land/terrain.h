@@ -24,7 +24,7 @@ struct HeightGrid {
 
 // Heights are interpolated bilinearly in a grid, if all four neighbouring heights are known. If
 // several grids know a place, the first of them is used. A building's roof is level; tree-tops
-// follow the ground.
+// follow the ground; scenery has the height at which it was seen.
 class Terrain : public Surface {
  public:
   // `memory` keeps the memory alive that the grids' `heights_m` refer to.

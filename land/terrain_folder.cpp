@@ -118,7 +118,8 @@ HeightGrid height_grid(const GridFile& form, std::span<const float> heights_m) {
           heights_m};
 }
 
-TerrainFolder read_terrain_folder(const std::string& path, const std::stop_token& stop) {
+TerrainFolder read_terrain_folder(const std::string& path, Scenery scenery,
+                                  const std::stop_token& stop) {
   TerrainFolder folder;
   const std::string manifest_path = path + "/" + kManifest,
                     coverings_path = path + "/" + kCoverings;
@@ -135,8 +136,11 @@ TerrainFolder read_terrain_folder(const std::string& path, const std::stop_token
     if (stop.stop_requested()) throw std::runtime_error(path + ": reading was stopped");
     grids.push_back(map_grid(path, form, *mapped));
   }
-  folder.terrain = std::make_shared<const Terrain>(
-      grids, parse_file(coverings_path, coverings, parse_coverings), mapped);
+  auto covered = parse_file(coverings_path, coverings, parse_coverings);
+  if (scenery == Scenery::kLeftOut) {
+    std::erase_if(covered, [](const Covering& one) { return one.kind == CoveringKind::kScenery; });
+  }
+  folder.terrain = std::make_shared<const Terrain>(grids, std::move(covered), mapped);
   return folder;
 }
 

@@ -21,10 +21,14 @@ struct TerrainFolder {
   std::shared_ptr<const Terrain> terrain;
 };
 
+// Whether the terrain includes the scenery that stations have measured.
+enum class Scenery { kIncluded, kLeftOut };
+
 // Throws std::runtime_error with the file and the reason: the file is missing, damaged, of the
 // wrong length or of another version. The checksum of a large grid takes seconds. If a stop is
 // requested through `stop`, no further grid is begun, and std::runtime_error says so.
-TerrainFolder read_terrain_folder(const std::string& path, const std::stop_token& stop = {});
+TerrainFolder read_terrain_folder(const std::string& path, Scenery scenery = Scenery::kIncluded,
+                                  const std::stop_token& stop = {});
 
 // Reads the folder that a configuration names in [land]; empty: there is no terrain. Throws
 // ConfigError naming the key where read_terrain_folder() throws.

@@ -63,7 +63,8 @@ std::optional<skyline::SkylinePart> SkylineThread::next_part(double now_s) {
 bool SkylineThread::read_land(const std::stop_token& stop, const std::string& folder) {
   Alarm alarm;
   try {
-    watch_.emplace(land::read_terrain_folder(folder, stop).terrain);
+    // Scenery was measured with the stations' headings, so it cannot be used to check them.
+    watch_.emplace(land::read_terrain_folder(folder, land::Scenery::kLeftOut, stop).terrain);
   } catch (const std::exception& wrong) {
     alarm = alarm::skyline_not_compared(wrong.what());
   }

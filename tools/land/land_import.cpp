@@ -14,6 +14,7 @@
 #include "tools/land/covering_reader.h"
 #include "tools/land/elevation_reader.h"
 #include "tools/land/mosaic.h"
+#include "tools/land/scenery_coverings.h"
 
 namespace ols::land {
 namespace {
@@ -68,10 +69,13 @@ class Import {
     note(mosaic.notes);
     check_cover(mosaic);
     for (const std::string& path : options_.buildings) {
-      add_coverings(path, CoveringKind::kBuilding, "buildings");
+      add_coverings(path, read_coverings(path, CoveringKind::kBuilding, bounds_), "buildings");
     }
     for (const std::string& path : options_.woods) {
-      add_coverings(path, CoveringKind::kWood, "woods");
+      add_coverings(path, read_coverings(path, CoveringKind::kWood, bounds_), "woods");
+    }
+    for (const std::string& path : options_.scenery) {
+      add_coverings(path, read_scenery_coverings(path, bounds_), "scenery");
     }
     write_terrain_folder(options_.output, manifest_, mosaic.grids, coverings_);
     return manifest_.notes;
@@ -153,12 +157,12 @@ class Import {
     note({share.str()});
   }
 
-  void add_coverings(const std::string& path, CoveringKind kind, const std::string& name) {
-    ReadCoverings read = read_coverings(path, kind, bounds_);
+  void add_coverings(const std::string& path, ReadCoverings read, const std::string& kind) {
     note(read.notes);
     double greatest_sd_m = 0.0;
     for (const Covering& one : read.coverings) greatest_sd_m = std::max(greatest_sd_m, one.sd_m);
-    manifest_.sources.push_back({name_of(path), name, options_.licence, "ground", greatest_sd_m});
+    manifest_.sources.push_back({name_of(path), kind, options_.licence,
+                                 kind == "scenery" ? kEllipsoid : "ground", greatest_sd_m});
     std::ranges::move(read.coverings, std::back_inserter(coverings_));
   }
 

@@ -1,5 +1,5 @@
-// ols-land import: collects the elevation models, buildings and woods of a site's land in one
-// folder.
+// ols-land import: collects the elevation models, buildings, woods and measured scenery of a
+// site's land in one folder.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace ols::land {
 struct ImportOptions {
   double latitude_deg = 0.0, longitude_deg = 0.0;  // of the site
   double radius_km = 40.0;
-  std::vector<std::string> elevation, buildings, woods;  // paths
+  std::vector<std::string> elevation, buildings, woods, scenery;  // paths
   // The zero of the models' heights: a geoid grid of PROJ, or "ellipsoid". Empty: the zero that the
   // kind of file implies; a file that implies none is refused.
   std::string heights;

@@ -121,6 +121,8 @@ void add_import(CLI::App& app, land::ImportOptions& o, std::vector<double>& site
   command->add_option("--buildings", o.buildings,
                       "Outlines of buildings with height or building:levels (GeoJSON, OSM, ...)");
   command->add_option("--woods", o.woods, "Outlines of woods with height");
+  command->add_option("--scenery", o.scenery,
+                      "What ols-calibrate scenery has measured; several files");
   command->add_option("--licence", o.licence, "Licence of the data, kept in the folder");
   command->add_flag("--accept-seams", o.accept_seams, "Take models that do not join as they are");
   command->add_option("--output", o.output, "Folder to make")->required();

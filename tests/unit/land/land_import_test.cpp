@@ -282,6 +282,53 @@ TEST(Height, IsReadWithItsUnit) {
   }
 }
 
+constexpr const char* kSceneryHeader =
+    "station,other,latitude_deg,longitude_deg,height_m,height_sd_m,azimuth_deg,elevation_deg,"
+    "range_m,range_sd_m,range_sd_systematic_m\n";
+
+// Two points 0.1 degrees wide, one of them elsewhere.
+TEST_F(LandImportTest, SceneryStandsWhereItWasMeasured) {
+  Model level;
+  level.height = [](double, double) { return 50.0; };
+  options_.elevation = {model("level.tif", level)};
+  options_.scenery = {file("scenery.csv", std::string(kSceneryHeader) +
+                                              "alfa,bravo,38.5,10.0,75.5,0.4,0,1,1000,2,1\n"
+                                              "alfa,bravo,37.5,10.0,75.5,0.4,0,1,1000,2,1\n")};
+  EXPECT_NE(import().find("scenery.csv: 1 points of measured scenery"), std::string::npos);
+  const auto land = read_terrain_folder(options_.output).terrain;
+  const auto top = [&](double north_m) {
+    return *land->top(radians(38.5 + north_m / 111e3), radians(10.0));
+  };
+  EXPECT_EQ(top(0.8).height_m, 75.5);
+  EXPECT_EQ(top(0.8).sd_m, 0.4);
+  EXPECT_NEAR(top(1.0).height_m, 50.0, 1e-3);
+  EXPECT_NEAR(top(-1.0).height_m, 50.0, 1e-3);
+  // From where it was measured, two columns of the map show it: it stands between them.
+  const double west_m = 1000.0 * radians(0.025);
+  const Geodetic camera{radians(38.5 - 1000.0 / 111e3), radians(10.0 - west_m / 87.2e3), 55.5};
+  const HorizonMap map(
+      *land, camera,
+      {.reach_m = 2000.0, .from_azimuth_rad = radians(-1.0), .sector_rad = radians(2.0)});
+  for (const double azimuth_deg : {0.0, 0.025, 0.05}) {
+    const auto seen = map.skyline(radians(azimuth_deg));
+    ASSERT_TRUE(seen);
+    EXPECT_NEAR(seen->distance_m, 1000.0, 3.0) << azimuth_deg;
+    EXPECT_NEAR(seen->elevation_rad, 20.0 / 1000.0, 2e-4) << azimuth_deg;
+    EXPECT_NEAR(seen->elevation_sd_rad, 0.4 / 1000.0, 2e-5) << azimuth_deg;
+  }
+  EXPECT_LT(map.skyline(radians(0.2))->elevation_rad, 0.0);
+}
+
+TEST_F(LandImportTest, AWrongRowOfSceneryIsNamed) {
+  Model level;
+  options_.elevation = {model("level.tif", level)};
+  options_.scenery = {file(
+      "scenery.csv", std::string(kSceneryHeader) + "alfa,bravo,38.5,10.0,nan,0.4,0,1,1000,2,1\n")};
+  EXPECT_NE(refused().find("scenery.csv:2: height_m: "), std::string::npos) << refused();
+  options_.scenery = {file("scenery.csv", kSceneryHeader)};
+  EXPECT_NE(refused().find("scenery.csv: has no rows"), std::string::npos) << refused();
+}
+
 // Four tiles of SRTM: a volcano, another island 7 km away, and the sea between.
 class RealLandTest : public LandImportTest {
  protected:

@@ -59,6 +59,22 @@ TEST_F(TerrainFolderTest, IsReadAsWritten) {
             path_ + ": exists");
 }
 
+// A crane 300 m above the ellipsoid.
+TEST_F(TerrainFolderTest, SceneryCanBeLeftOut) {
+  const std::string path = folder_ + "/seen";
+  Covering crane = kCoverings.front();
+  crane.kind = CoveringKind::kScenery;
+  crane.height_m = 300.0;
+  crane.sd_m = 0.5;
+  write_terrain_folder(path, {}, kGrids, {kCoverings.front(), crane});
+  const auto top = [&](Scenery scenery) {
+    return *read_terrain_folder(path, scenery).terrain->top(radians(38.49999), radians(10.00002));
+  };
+  EXPECT_EQ(top(Scenery::kIncluded).height_m, 300.0);
+  EXPECT_EQ(top(Scenery::kIncluded).sd_m, 0.5);
+  EXPECT_NEAR(top(Scenery::kLeftOut).height_m, 21.5, 0.1);
+}
+
 TEST_F(TerrainFolderTest, DamageIsNamed) {
   const std::string manifest = read_small_file(path_ + "/land.json", 100'000);
   const std::string heights = read_small_file(path_ + "/heights-1.f32", 100'000);
@@ -95,9 +111,10 @@ TEST_F(TerrainFolderTest, DamageIsNamed) {
 
 TEST_F(TerrainFolderTest, ReadingCanBeStoppedBeforeAGrid) {
   std::stop_source stop;
-  EXPECT_NO_THROW(read_terrain_folder(path_, stop.get_token()));
+  EXPECT_NO_THROW(read_terrain_folder(path_, Scenery::kIncluded, stop.get_token()));
   stop.request_stop();
-  EXPECT_EQ(error_text<std::runtime_error>([&] { read_terrain_folder(path_, stop.get_token()); }),
+  EXPECT_EQ(error_text<std::runtime_error>(
+                [&] { read_terrain_folder(path_, Scenery::kIncluded, stop.get_token()); }),
             path_ + ": reading was stopped");
 }
 
