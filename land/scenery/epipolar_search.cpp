@@ -6,6 +6,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "land/scenery/sample.h"
+
 namespace ols::scenery {
 namespace {
 
@@ -142,16 +144,6 @@ ScenePyramid pyramid_of(const ScenePanorama& panorama, int levels) {
     image = half;
   }
   return pyramid;
-}
-
-float sample(const cv::Mat1f& image, double x, double y) {
-  if (!(x >= 0.0 && y >= 0.0 && x < image.cols - 1 && y < image.rows - 1)) {
-    return std::numeric_limits<float>::quiet_NaN();
-  }
-  const int i = static_cast<int>(x), j = static_cast<int>(y);
-  const auto a = static_cast<float>(x - i), b = static_cast<float>(y - j);
-  const float *upper = image[j] + i, *lower = image[j + 1] + i;
-  return (1 - b) * ((1 - a) * upper[0] + a * upper[1]) + b * ((1 - a) * lower[0] + a * lower[1]);
 }
 
 double epipolar_slope(const ScenePanorama& panorama, const ScenePanorama& other,

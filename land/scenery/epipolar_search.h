@@ -30,9 +30,6 @@ double from_level(double px, int level);
 Eigen::Vector2d to_level(const Eigen::Vector2d& px, int level);
 Eigen::Vector2d from_level(const Eigen::Vector2d& px, int level);
 
-// Bilinear; NaN outside.
-float sample(const cv::Mat1f& image, double x, double y);
-
 inline constexpr int kPatchHalf = 7;  // [px of a level]; a patch has twice that and one
 
 // Slope of the epipolar line at a pixel: downwards, per pixel to the right.

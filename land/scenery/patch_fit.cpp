@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "land/scenery/epipolar_search.h"
+#include "land/scenery/sample.h"
 
 namespace ols::scenery {
 namespace {

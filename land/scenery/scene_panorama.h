@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -19,8 +20,10 @@ struct PoseSd {  // 1-sigma; the errors are the same in the whole panorama
   double position_m = 0.0;  // each axis
 };
 
+inline constexpr std::uint8_t kUnseen = 0;
+
 struct ScenePanorama {
-  cv::Mat1b gray;
+  cv::Mat1b gray;                  // kUnseen where no picture shows anything
   double first_azimuth_rad = 0.0;  // of the first column
   double top_elevation_rad = 0.0;  // of the first row
   double rad_per_px = 0.0;         // the same in azimuth and elevation

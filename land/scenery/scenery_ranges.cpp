@@ -57,6 +57,15 @@ bool is_unique(const PatchPlace& place) {
   return 1.0 - place.score <= kUnique * (1.0 - place.second);
 }
 
+// Whether the patch about `at` reaches to where no picture shows anything.
+bool reaches_unseen(const cv::Mat1f& image, const cv::Point& at) {
+  constexpr int kReach_px = kPatchHalf + 2;
+  double least = 0.0;
+  const cv::Rect around(at.x - kReach_px, at.y - kReach_px, 2 * kReach_px + 1, 2 * kReach_px + 1);
+  cv::minMaxLoc(image(around), &least);
+  return least <= kUnseen;
+}
+
 // Corners: where the brightness changes in every direction. The strongest one of each cell.
 std::vector<Eigen::Vector2d> corners_of(const cv::Mat1f& image, int cell_px, float least) {
   constexpr int kMargin_px = kPatchHalf + 3;
@@ -70,7 +79,7 @@ std::vector<Eigen::Vector2d> corners_of(const cv::Mat1f& image, int cell_px, flo
       double strongest = 0.0;
       cv::Point at;
       cv::minMaxLoc(cell, nullptr, &strongest, nullptr, &at);
-      if (strongest < least) continue;
+      if (strongest < least || reaches_unseen(image, {left + at.x, top + at.y})) continue;
       double around = 0.0;
       cv::minMaxLoc(strength(cv::Rect(left + at.x - 2, top + at.y - 2, 5, 5)), nullptr, &around);
       if (around == strongest) corners.emplace_back(left + at.x, top + at.y);

@@ -16,6 +16,7 @@
 #include "tools/calibrate/mount_command.h"
 #include "tools/calibrate/output_folder.h"
 #include "tools/calibrate/procedure_commands.h"
+#include "tools/calibrate/scenery_command.h"
 #include "tools/calibrate/tracks.h"
 #include "tools/calibrate/zoom_command.h"
 
@@ -165,6 +166,8 @@ int main(int argc, char** argv) {
   const CLI::App* mounts = calibration::add_mount(app, mount);
   calibration::DelayOptions delay;
   const CLI::App* delays = calibration::add_delay(app, delay);
+  calibration::SceneryOptions scenery;
+  const CLI::App* measured = calibration::add_scenery(app, scenery);
   calibration::AircraftOptions aircraft;
   const CLI::App* heard =
       app.add_subcommand("aircraft", "What a receiver has heard, as references.");
@@ -184,6 +187,10 @@ int main(int argc, char** argv) {
     if (!procedure.name.empty()) return calibration::run_procedure(procedure);
     if (mounts->parsed()) return calibration::run_mount(mount);
     if (delays->parsed()) return calibration::run_delay(delay);
+    if (measured->parsed()) {
+      const ols::Progress progress("ols-calibrate", "sectors");
+      return told(calibration::write_scenery(scenery, progress));
+    }
     if (zooms->parsed()) return calibration::run_zoom(zoom);
     if (heard->parsed()) {
       const ols::Progress progress("ols-calibrate", "bytes");

@@ -11,38 +11,18 @@
 #include "land/refraction.h"
 #include "land/scenery/epipolar_search.h"
 #include "land/scenery/patch_fit.h"
+#include "land/scenery/picture_panorama.h"
 #include "land/scenery/possible_ranges.h"
 #include "land/scenery/scene_panorama.h"
 #include "land/scenery/scenery_ranges.h"
 #include "tests/unit/land/made_land.h"
+#include "tests/unit/land/painted_walls.h"
 
 namespace ols::scenery {
 namespace {
 
-const Geodetic kMiddle{radians(38.5), radians(-28.5), 100.0};
 constexpr double kBaseline_m = 200.0;
 const PoseSd kSd{radians(0.005), radians(0.005), 0.05};
-
-// A wall across the view to the north, painted at random.
-struct Wall {
-  double north_m, west_m, east_m, top_m, spot_m;
-
-  double gray(double east, double up, std::uint32_t paint) const {
-    const double u = east / spot_m, v = up / spot_m;
-    const double a = u - std::floor(u), b = v - std::floor(v);
-    const auto spot = [&](int i, int j) {
-      const auto x = static_cast<std::uint32_t>(std::floor(u) + i + 5000);
-      const auto y = static_cast<std::uint32_t>(std::floor(v) + j + 5000);
-      std::uint32_t mixed = (x * 0x8da6b343U) ^ (y * 0xd8163841U) ^ (paint * 0xcb1ab31fU);
-      mixed = (mixed ^ (mixed >> 13)) * 0x5bd1e995U;
-      return 60.0 + (mixed >> 8) % 120;
-    };
-    return (1 - b) * ((1 - a) * spot(0, 0) + a * spot(1, 0)) +
-           b * ((1 - a) * spot(0, 1) + a * spot(1, 1));
-  }
-};
-constexpr std::array kWalls{Wall{1000.0, -50.0, 50.0, 25.0, 1.3},
-                            Wall{2000.0, -400.0, 400.0, 80.0, 2.6}};
 
 ScenePanorama panorama_at(double east_m, double first_azimuth_rad, std::uint32_t paint) {
   const LocalFrame frame(kMiddle);
@@ -55,19 +35,8 @@ ScenePanorama panorama_at(double east_m, double first_azimuth_rad, std::uint32_t
                          .sd = kSd};
   for (int j = 0; j < panorama.gray.rows; ++j) {
     for (int i = 0; i < panorama.gray.cols; ++i) {
-      double gray = 220.0;
-      for (const Wall& wall : kWalls) {
-        AzimuthElevation direction = direction_of(panorama, Eigen::Vector2d(i, j));
-        direction.elevation_rad -= land::refraction_slope(land::kRefraction, wall.north_m);
-        const Eigen::Vector3d ray = enu_from_azimuth_elevation(direction);
-        const double range_m = wall.north_m / ray.y();
-        const double east = east_m + range_m * ray.x(), up = range_m * ray.z();
-        if (east < wall.west_m || east > wall.east_m || up > wall.top_m) continue;
-        // Each wall has its own painting.
-        gray = wall.gray(east, up, 2 * paint + (wall.north_m > 1500.0 ? 1 : 0));
-        break;
-      }
-      panorama.gray(j, i) = static_cast<std::uint8_t>(gray);
+      const AzimuthElevation direction = direction_of(panorama, Eigen::Vector2d(i, j));
+      panorama.gray(j, i) = painted_gray(east_m, direction, paint);
     }
   }
   return panorama;
@@ -130,6 +99,85 @@ TEST(SceneryRanges, WallsAreFoundWithinTheirSigmasThoughThePosesErr) {
   EXPECT_EQ(wrong, 0);
   std::ranges::sort(white_sigmas);
   EXPECT_LT(white_sigmas[white_sigmas.size() / 2], 1.0);
+}
+
+// A picture whose axis points to this azimuth, level, that shows a gray value which grows with
+// azimuth and elevation.
+double gray_towards(const AzimuthElevation& direction) {
+  return 100.0 + 200.0 * wrap_pi(direction.azimuth_rad) + 100.0 * direction.elevation_rad;
+}
+ScenePicture sloping_picture(double azimuth_rad, double brighter = 0.0) {
+  CameraIntrinsics camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.fx_px = camera.fy_px = 2000.0;
+  camera.cx_px = 320.0;
+  camera.cy_px = 240.0;
+  camera.k1 = 0.05;
+  ScenePicture picture{.gray = cv::Mat1b(480, 640), .camera = camera};
+  const Eigen::Vector3d forward = enu_from_azimuth_elevation({azimuth_rad, 0.0});
+  const Eigen::Vector3d down(0.0, 0.0, -1.0);
+  picture.R_enu_camera << down.cross(forward), down, forward;
+  for (int y = 0; y < picture.gray.rows; ++y) {
+    for (int x = 0; x < picture.gray.cols; ++x) {
+      const Eigen::Vector3d ray = *unproject(camera, {x, y});
+      picture.gray(y, x) = static_cast<std::uint8_t>(std::lround(
+          brighter + gray_towards(azimuth_elevation_from_enu(picture.R_enu_camera * ray))));
+    }
+  }
+  return picture;
+}
+
+TEST(PicturePanorama, ShowsEachDirectionAsThePictureWhoseAxisIsNearestShowsIt) {
+  const std::vector<ScenePicture> pictures{sloping_picture(0.0), sloping_picture(0.2, 40.0)};
+  ScenePanorama panorama{.rad_per_px = 1e-3};
+  draw(pictures, {wrap_two_pi(-0.3), 0.7, -0.1, 0.1}, panorama);
+  EXPECT_EQ(panorama.gray.cols, 700);
+  EXPECT_EQ(panorama.gray.rows, 200);
+  const auto off = [&](int x, int y) {
+    return panorama.gray(y, x) - gray_towards(direction_of(panorama, Eigen::Vector2d(x, y)));
+  };
+  for (const int y : {20, 100, 180}) {
+    for (const int x : {160, 300, 395}) EXPECT_NEAR(off(x, y), 0.0, 1.1) << x << ' ' << y;
+    for (const int x : {405, 500, 640}) EXPECT_NEAR(off(x, y), 40.0, 1.1) << x << ' ' << y;
+    for (const int x : {100, 690}) EXPECT_EQ(panorama.gray(y, x), kUnseen) << x;
+  }
+}
+
+// The lower half of a panorama without pictures has an edge to the upper one that is no scenery.
+TEST(SceneryRanges, TheEdgeOfThePicturesIsNoScenery) {
+  ScenePanorama one = left(), two = right();
+  for (ScenePanorama* cut : {&one, &two}) cut->gray.rowRange(120, 200) = kUnseen;
+  const auto ranges = scenery_ranges(one, two, anywhere, anywhere);
+  EXPECT_GE(ranges.size(), 20U);
+  for (const SceneryRange& range : ranges) EXPECT_LT(range.px.y(), 120.0);
+}
+
+TEST(PicturePanorama, BothBoxesShowWhatCanStandThere) {
+  const LocalFrame camera(kMiddle);
+  const LocalFrame other(geodetic_from_ecef(camera.to_ecef({500.0, 0.0, 0.0})));
+  // Something stands only between 1 and 2 km, above the horizon.
+  const auto possible = [](const AzimuthElevation& to) -> std::optional<RangeInterval> {
+    if (to.elevation_rad < 0.0) return std::nullopt;
+    return RangeInterval{1000.0, 2000.0};
+  };
+  const SceneBox sector{radians(350.0), radians(20.0), radians(-2.0), radians(3.0)};
+  const auto boxes = shared_boxes(sector, camera, other, possible);
+  ASSERT_TRUE(boxes);
+  EXPECT_NEAR(boxes->own.bottom_rad, 0.0, radians(0.2));
+  EXPECT_EQ(boxes->own.top_rad, sector.top_rad);
+  // Leftmost: 10 degrees to the left at 1 km; rightmost: 10 degrees to the right at 2 km.
+  const auto azimuth = [](double azimuth_rad, double range_m) {
+    return std::atan2(range_m * std::sin(azimuth_rad) - 500.0, range_m * std::cos(azimuth_rad));
+  };
+  const double left_rad = azimuth(radians(-10.0), 1000.0), right_rad = azimuth(radians(10.0), 2e3);
+  EXPECT_NEAR(wrap_pi(boxes->other.first_azimuth_rad - left_rad), 0.0, radians(0.2));
+  EXPECT_NEAR(boxes->other.width_rad, right_rad - left_rad, radians(0.4));
+  EXPECT_FALSE(shared_boxes(sector, camera, other, [](const auto&) { return std::nullopt; }));
+  // 1 km away, two stations 3 km apart see two different sides.
+  const LocalFrame far(geodetic_from_ecef(camera.to_ecef({3000.0, 0.0, 0.0})));
+  const auto near = [](const AzimuthElevation&) { return RangeInterval{900.0, 1000.0}; };
+  EXPECT_FALSE(shared_boxes(sector, camera, far, near));
 }
 
 TEST(PatchFit, AnEdgeDecidesWhereAPatchIsFound) {
