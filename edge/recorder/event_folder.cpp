@@ -90,7 +90,8 @@ EventFolder::EventFolder(const std::string& store, const std::string& name)
   const std::string partial = path_ + kPartial;
   if (::mkdir(partial.c_str(), 0755) != 0) fail(errno, partial);
   try {
-    append(partial + "/" + kTable, "utime_us,number,file,mid_exposure_sd_s,pixel_format\n");
+    append(partial + "/" + kTable,
+           "utime_us,number,file,mid_exposure_sd_s,pixel_format,stamp_source\n");
   } catch (...) {
     ::unlink((partial + "/" + kTable).c_str());
     ::rmdir(partial.c_str());
@@ -107,8 +108,9 @@ std::size_t EventFolder::write(const RecordedFrame& frame, const std::vector<uns
   }
   const std::string path = folder + name;
   const std::string row =
-      printed("%" PRId64 ",%" PRIu64 ",%s,%.9f,%s\n", frame.utime_us, frame.number, name.c_str(),
-              frame.sd_s, frame.pixel_format.c_str());
+      printed("%" PRId64 ",%" PRIu64 ",%s,%.9f,%s,%s\n", frame.utime_us, frame.number, name.c_str(),
+              frame.sd_s, frame.pixel_format.c_str(),
+              frame.stamp_source == camera::StampSource::kArrival ? "arrival" : "camera");
   File file(path, O_WRONLY | O_CREAT | O_EXCL);
   try {
     file.write({reinterpret_cast<const char*>(png.data()), png.size()});

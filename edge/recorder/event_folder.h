@@ -1,7 +1,7 @@
 // The folder of one recorded event. Contains the raw frames (for a Bayer camera, the mosaics) as
 // PNG files named by their utime, and frames.csv with the columns
-// `utime_us,number,file,mid_exposure_sd_s,pixel_format`. The folder's name is NAME.partial until
-// the event is complete.
+// `utime_us,number,file,mid_exposure_sd_s,pixel_format,stamp_source`. The folder's name is
+// NAME.partial until the event is complete.
 #pragma once
 
 #include <cstddef>

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "edge/camera/frame.h"
+
 namespace ols::recorder {
 
 struct RecordedFrame {
@@ -16,6 +18,7 @@ struct RecordedFrame {
   std::int64_t utime_us = 0;           // mid-exposure
   double mid_exposure_s = 0.0;         // on the station's monotonic clock
   double sd_s = 0.0;                   // 1-sigma of mid_exposure_s
+  camera::StampSource stamp_source = camera::StampSource::kCamera;
   std::uint64_t number = 0;
 };
 

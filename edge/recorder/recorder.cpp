@@ -260,7 +260,7 @@ Recorder::~Recorder() = default;  // the jthread asks to stop and joins
 void Recorder::add(const camera::Frame& frame, std::int64_t utime_us) {
   if (impl_->config.folder.empty()) return;
   impl_->add({frame.raw.empty() ? frame.gray : frame.raw, frame.pixel_format, utime_us,
-              frame.mid_exposure_s, frame.stamp_sd_s, frame.number});
+              frame.mid_exposure_s, frame.stamp_sd_s, frame.stamp_source, frame.number});
 }
 
 std::string Recorder::record(const RecordCommand& command) { return impl_->record(command); }

@@ -14,6 +14,7 @@
 #include "tools/calibrate/bearing_log.h"
 #include "tools/calibrate/command_report.h"
 #include "tools/calibrate/config_change.h"
+#include "tools/calibrate/light_recording.h"
 
 namespace ols::calibration {
 namespace {
@@ -117,16 +118,69 @@ CommandReport report_on(const BearingLog& log, const DelayFit& fit, const std::s
   return report;
 }
 
+struct FoundDelay {
+  Measured late_s;
+  bool by_arrival;  // else by sender reports, or by the camera
+  CommandReport report;
+};
+
+FoundDelay by_bearings(const std::vector<std::string>& recordings,
+                       const station::StationSettings& settings) {
+  const BearingLog log = read_bearings(recordings);
+  const std::size_t wanted = index_of(log, settings.id);
+  const bool by_arrival = is_by_arrival(log, wanted);
+  const DelayFit fit = fit_delay(log.bearings, log.errors, wanted);
+  if (!fit.late_s) throw no_delay(log, fit);
+  return {*fit.late_s, by_arrival, report_on(log, fit, settings.id)};
+}
+
+double row_readout_s(const station::ChosenCamera& camera) {
+  if (const auto* v4l2 = camera.as<camera::V4l2Kind>()) return v4l2->v4l2.row_readout_s;
+  const auto* rtsp = camera.as<camera::RtspKind>();
+  return rtsp == nullptr ? 0.0 : rtsp->rtsp.row_readout_s;
+}
+
+FoundDelay by_light(const DelayOptions& o, const station::StationSettings& settings) {
+  const LightRecording seen = read_light(o.light, o.blinking, row_readout_s(settings.camera));
+  const LightFit fit = fit_light(seen.samples, o.blinking);
+  const std::string where = fmt::format("the light at pixel {:.0f}, {:.0f} of {} pictures",
+                                        seen.pixel.x(), seen.pixel.y(), seen.samples.size());
+  if (!fit.late_s) {
+    throw std::runtime_error(fmt::format(
+        "no delay found: {} does not follow a period of {:g} s ({:.1f} sigmas). Is it the only "
+        "light that blinks, and does the camera rest?",
+        where, o.blinking.period_s, fit.contrast));
+  }
+  return {*fit.late_s,
+          seen.by_arrival,
+          {{fmt::format("{}: pictures are stamped {:.1f} +- {:.1f} ms too {}, measured by {}",
+                        settings.id, 1e3 * std::abs(fit.late_s->value), 1e3 * fit.late_s->sd,
+                        fit.late_s->value < 0.0 ? "early" : "late", where)},
+           {},
+           {}}};
+}
+
 }  // namespace
 
 CLI::App* add_delay(CLI::App& app, DelayOptions& o) {
   CLI::App* delay = app.add_subcommand(
       "delay",
       "The constant delay of a camera's pictures, out of recordings in which other stations saw "
-      "the same object. One object that moves fast, to and fro, for a minute or more.");
+      "the same object, or of a light that GNSS time switches. One object that moves fast, to and "
+      "fro, for a minute or more.");
   add_station(*delay, o.station);
-  delay->add_option("--recording", o.recordings, "log of the bus, as ols-logger writes it; several")
-      ->required();
+  auto* source = delay->add_option_group("source");
+  source->add_option("--recording", o.recordings,
+                     "log of the bus, as ols-logger writes it; several");
+  source->add_option("--light", o.light,
+                     "folder of an event that the station has recorded at rest, with the light");
+  source->require_option(1);
+  delay->add_option("--period", o.blinking.period_s, "[s] of the light; periods begin at UTC 0")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 60.0));
+  delay->add_option("--lit", o.blinking.lit_s, "[s] for which it is on, from the beginning of a period")
+      ->capture_default_str()
+      ->check(CLI::Range(0.001, 60.0));
   delay->add_flag("--write", o.write, "change [camera] of the station's configuration");
   return delay;
 }
@@ -135,18 +189,16 @@ int run_delay(const DelayOptions& o) {
   constexpr double kLeastSd_s = 1e-4;  // of a configuration
   const std::string path = config_path(o.station), text = config_text(path);
   const station::StationSettings settings = station::load_station_settings(path);
-  const BearingLog log = read_bearings(o.recordings);
-  const std::size_t wanted = index_of(log, settings.id);
-  const DelayKeys keys = keys_of(settings.camera, is_by_arrival(log, wanted));
-  const DelayFit fit = fit_delay(log.bearings, log.errors, wanted);
-  if (!fit.late_s) throw no_delay(log, fit);
-  const int status = tell(report_on(log, fit, settings.id));
-  const double delay_s = keys.delay_s + fit.late_s->value;
+  const FoundDelay found =
+      o.light.empty() ? by_bearings(o.recordings, settings) : by_light(o, settings);
+  const DelayKeys keys = keys_of(settings.camera, found.by_arrival);
+  const int status = tell(found.report);
+  const double delay_s = keys.delay_s + found.late_s.value;
   check_range(settings.camera, keys.value, delay_s);
   const setup::Values before = setup::flat(text);
   setup::Values now = before;
   set(now, "camera." + keys.value, delay_s);
-  set(now, "camera." + keys.sd, std::max(fit.late_s->sd, kLeastSd_s));
+  set(now, "camera." + keys.sd, std::max(found.late_s.sd, kLeastSd_s));
   tell_changes(before, now);
   if (o.write) write_changes(path, text, before, now);
   return status;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <opencv2/imgcodecs.hpp>
 #include <random>
 #include <sstream>
 
@@ -14,6 +15,7 @@
 #include "ols_msg/bearing_t.hpp"
 #include "tests/unit/base/bus/log_file.h"
 #include "tests/unit/error_text.h"
+#include "tests/unit/temporary_folder.h"
 #include "tools/calibrate/bearing_log.h"
 
 namespace ols::calibration {
@@ -168,6 +170,73 @@ TEST(BearingLog, ABearingInTwoRecordingsCountsOnce) {
   const LogFile first(recorded()), second(recorded() + recorded());
   EXPECT_EQ(read_bearings({first.path(), second.path()}).bearings.size(),
             read_bearings({first.path()}).bearings.size());
+}
+
+constexpr double kLightLate_s = 0.03, kReadout_s = 0.02;
+const BlinkingLight kSeventh{.period_s = 1.0 / 7.0, .lit_s = 0.05};
+
+// An event of 20 s: a light in the middle row, and a lamp beside it that flickers at random. The
+// rows are exposed one after the other.
+class DelayByLight : public DelayCommand {
+ protected:
+  void SetUp() override {
+    DelayCommand::SetUp();
+    write("delay_s = 0.25\nrow_readout_s = 0.02\n");
+    film("arrival");
+  }
+  void film(const std::string& source_of_last) const {
+    constexpr double kInterval_s = 0.0401, kExposure_s = 0.01;
+    constexpr int kPictures = 500;
+    std::mt19937 random(3);
+    std::ofstream table(event_.path() + "/frames.csv");
+    table << "utime_us,number,file,mid_exposure_sd_s,pixel_format,stamp_source\n";
+    for (int i = 0; i < kPictures; ++i) {
+      const double first_row_s = kInterval_s * i, row_s = first_row_s + 0.5 * kReadout_s;
+      int lit = 0;
+      for (int k = 0; k < 20; ++k) {
+        const double at_s = row_s + kExposure_s * ((k + 0.5) / 20.0 - 0.5) + kSeventh.period_s;
+        lit += std::fmod(at_s, kSeventh.period_s) < kSeventh.lit_s ? 1 : 0;
+      }
+      cv::Mat1b gray(48, 64, std::uint8_t{30});
+      cv::randn(gray, 30.0, 2.0);
+      gray(cv::Rect(40, 24, 3, 3)) += 5.0 * lit;
+      gray(cv::Rect(10, 10, 4, 4)) += random() % 150;
+      const std::int64_t utime_us =
+          kStart_us - kStart_us % 1'000'000 + std::llround(1e6 * (first_row_s + kLightLate_s));
+      const std::string file = std::to_string(utime_us) + ".png";
+      cv::imwrite(event_.path() + "/" + file, gray);
+      table << utime_us << ',' << i << ',' << file << ",0.001,Mono8,"
+            << (i + 1 == kPictures ? source_of_last : "arrival") << '\n';
+    }
+  }
+  std::string refusal(const BlinkingLight& light) const {
+    return error_text<std::runtime_error>([&] {
+      run_delay({path_, {}, true, event_.path(), light});
+    });
+  }
+
+  const TemporaryFolder event_;
+};
+
+TEST_F(DelayByLight, WritesTheDelayIntoTheConfiguration) {
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(run_delay({path_, {}, true, event_.path(), kSeventh}), 0);
+  const std::string said = ::testing::internal::GetCapturedStdout();
+  EXPECT_NE(said.find("pixel 41, 25 of 500 pictures"), std::string::npos) << said;
+  const std::string after = text();
+  const double delay_s = std::stod(after.substr(after.find("delay_s = ") + 10));
+  EXPECT_NEAR(delay_s, 0.25 + kLightLate_s, 0.001);
+}
+
+TEST_F(DelayByLight, AnotherPeriodIsRefused) {
+  const std::string why = refusal({.period_s = 0.31, .lit_s = 0.1});
+  EXPECT_NE(why.find("does not follow a period of 0.31 s"), std::string::npos) << why;
+}
+
+TEST_F(DelayByLight, TwoKindsOfTimesAreRefused) {
+  film("camera");
+  const std::string why = refusal(kSeventh);
+  EXPECT_NE(why.find("some times are by arrivals"), std::string::npos) << why;
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ TEST(EventFolder, HasFramesAndTableAndAppearsWhole) {
   EXPECT_THAT(names_in(store.path()), ElementsAre("e"));
   EXPECT_THAT(names_in(store / "e"), ElementsAre("1700000001500000.png", "frames.csv"));
   EXPECT_EQ(content_of(store / "e/frames.csv"),
-            "utime_us,number,file,mid_exposure_sd_s,pixel_format\n"
-            "1700000001500000,7,1700000001500000.png,0.000010000,Mono8\n");
+            "utime_us,number,file,mid_exposure_sd_s,pixel_format,stamp_source\n"
+            "1700000001500000,7,1700000001500000.png,0.000010000,Mono8,camera\n");
   const cv::Mat read = cv::imread(store / "e/1700000001500000.png", cv::IMREAD_UNCHANGED);
   ASSERT_EQ(read.size(), frame.picture.size());
   EXPECT_EQ(cv::norm(read, frame.picture, cv::NORM_L1), 0.0);

@@ -328,7 +328,7 @@ TEST_F(RecorderTest, OfABayerCameraTheMosaicIsKept) {
   EXPECT_EQ(recorder.record({start_s, 1.0, 0.0, "raw"}), "");
   ASSERT_TRUE(has_events(1));
   const auto folder_of_event = std::filesystem::path(config.folder) / *events().begin();
-  EXPECT_THAT(content_of(folder_of_event / "frames.csv"), HasSubstr(",BayerRG8\n"));
+  EXPECT_THAT(content_of(folder_of_event / "frames.csv"), HasSubstr(",BayerRG8,camera\n"));
   const std::string png = folder_of_event / (std::to_string(mosaic.utime_us) + ".png");
   const cv::Mat read = cv::imread(png, cv::IMREAD_UNCHANGED);
   ASSERT_EQ(read.size(), mosaic.picture.size());
