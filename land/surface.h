@@ -17,7 +17,7 @@ class Surface {
   virtual ~Surface() = default;
   // The bare ground; nullopt if no model knows it.
   virtual std::optional<SurfaceHeight> ground(double latitude_rad, double longitude_rad) const = 0;
-  // The top surface at the place: the ground, a roof or tree-tops.
+  // The top surface at the place: the ground, a roof, tree-tops or measured scenery.
   virtual std::optional<SurfaceHeight> top(double latitude_rad, double longitude_rad) const = 0;
 };
 

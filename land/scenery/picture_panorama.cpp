@@ -77,11 +77,27 @@ class GrowingBox {
   double bottom_rad_ = kInfinity, top_rad_ = -kInfinity;
 };
 
-AzimuthElevation apparent(const LocalFrame& camera, const Eigen::Vector3d& p_ecef) {
+AzimuthElevation seen_from(const LocalFrame& camera, const Eigen::Vector3d& p_ecef) {
   const Eigen::Vector3d enu_m = camera.to_enu(p_ecef);
-  AzimuthElevation direction = azimuth_elevation_from_enu(enu_m);
-  direction.elevation_rad += land::refraction_slope(land::kRefraction, enu_m.norm());
-  return direction;
+  return land::apparent(azimuth_elevation_from_enu(enu_m), enu_m.norm());
+}
+
+// Places along a line of sight that look alike from both stations.
+std::vector<Eigen::Vector3d> seen_alike(const LocalFrame& camera, const LocalFrame& other,
+                                        const AzimuthElevation& direction,
+                                        const RangeInterval& ranges) {
+  constexpr int kRanges = 8;
+  const double least_cosine = std::cos(radians(50.0));
+  const double nearest = 1.0 / ranges.near_m, farthest = 1.0 / ranges.far_m;
+  std::vector<Eigen::Vector3d> places_ecef;
+  for (int k = 0; k <= kRanges; ++k) {
+    const double range_m = 1.0 / (nearest + (farthest - nearest) * k / kRanges);
+    const Eigen::Vector3d ray_enu = enu_from_azimuth_elevation(land::straight(direction, range_m));
+    const Eigen::Vector3d p_ecef = camera.to_ecef(range_m * ray_enu);
+    const Eigen::Vector3d from_other = (p_ecef - other.origin_ecef()).normalized();
+    if (from_other.dot(camera.R_ecef_enu() * ray_enu) > least_cosine) places_ecef.push_back(p_ecef);
+  }
+  return places_ecef;
 }
 
 }  // namespace
@@ -128,43 +144,30 @@ std::optional<SharedBoxes> shared_boxes(const SceneBox& sector, const LocalFrame
                                         const LocalFrame& other, const PossibleRanges& possible) {
   constexpr double kApart_rad = radians(0.5), kElevationsApart_rad = radians(0.1);
   constexpr double kMargin_rad = radians(0.1);
-  constexpr int kRanges = 8;
-  const double least_cosine = std::cos(radians(50.0));
   GrowingBox own, others;
-  const auto steps = [](double rad, double step_rad) {
-    return static_cast<int>(std::ceil(rad / step_rad));
-  };
-  const int columns = steps(sector.width_rad, kApart_rad);
-  const int rows = steps(sector.top_rad - sector.bottom_rad, kElevationsApart_rad);
+  const double height_rad = sector.top_rad - sector.bottom_rad;
+  const int columns = static_cast<int>(std::ceil(sector.width_rad / kApart_rad));
+  const int rows = static_cast<int>(std::ceil(height_rad / kElevationsApart_rad));
   for (int i = 0; i <= columns; ++i) {
     for (int j = 0; j <= rows; ++j) {
       const AzimuthElevation direction{
           wrap_two_pi(sector.first_azimuth_rad + sector.width_rad * i / columns),
-          sector.bottom_rad + (sector.top_rad - sector.bottom_rad) * j / rows};
+          sector.bottom_rad + height_rad * j / rows};
       const auto ranges = possible(direction);
       if (!ranges) continue;
-      for (int k = 0; k <= kRanges; ++k) {
-        const double range_m = 1.0 / (1.0 / ranges->near_m +
-                                      (1.0 / ranges->far_m - 1.0 / ranges->near_m) * k / kRanges);
-        AzimuthElevation straight = direction;
-        straight.elevation_rad -= land::refraction_slope(land::kRefraction, range_m);
-        const Eigen::Vector3d ray_enu = enu_from_azimuth_elevation(straight);
-        const Eigen::Vector3d p_ecef = camera.to_ecef(range_m * ray_enu);
-        const Eigen::Vector3d from_other =
-            (p_ecef - ecef_from_geodetic(other.origin())).normalized();
-        if (from_other.dot(camera.R_ecef_enu() * ray_enu) < least_cosine) continue;
+      for (const Eigen::Vector3d& p_ecef : seen_alike(camera, other, direction, *ranges)) {
         own.add(direction);
-        others.add(apparent(other, p_ecef));
+        others.add(seen_from(other, p_ecef));
       }
     }
   }
   if (own.is_empty()) return std::nullopt;
-  SharedBoxes boxes{own.box(kMargin_rad), others.box(kMargin_rad)};
+  const SceneBox shown = own.box(kMargin_rad);
   // What the pictures do not show is not looked for.
-  boxes.own = {sector.first_azimuth_rad, sector.width_rad,
-               std::max(sector.bottom_rad, boxes.own.bottom_rad),
-               std::min(sector.top_rad, boxes.own.top_rad)};
-  return boxes;
+  return SharedBoxes{
+      {sector.first_azimuth_rad, sector.width_rad, std::max(sector.bottom_rad, shown.bottom_rad),
+       std::min(sector.top_rad, shown.top_rad)},
+      others.box(kMargin_rad)};
 }
 
 }  // namespace ols::scenery

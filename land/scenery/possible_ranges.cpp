@@ -15,10 +15,8 @@ std::optional<RangeInterval> possible_ranges(const land::Surface& surface, const
   std::optional<double> near_m;
   double far_m = within.near_m;
   for (; far_m < within.far_m; far_m += std::max(kStep_m, kStep * far_m)) {
-    AzimuthElevation straight = direction;
-    straight.elevation_rad -= land::refraction_slope(land::kRefraction, far_m);
-    const Geodetic place =
-        geodetic_from_ecef(camera.to_ecef(far_m * enu_from_azimuth_elevation(straight)));
+    const Eigen::Vector3d ray_enu = enu_from_azimuth_elevation(land::straight(direction, far_m));
+    const Geodetic place = geodetic_from_ecef(camera.to_ecef(far_m * ray_enu));
     const auto ground = surface.ground(place.latitude_rad, place.longitude_rad);
     if (!ground) break;
     const double above_m = place.height_m - ground->height_m;

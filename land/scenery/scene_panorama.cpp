@@ -11,8 +11,6 @@
 namespace ols::scenery {
 namespace {
 
-double lift_rad(double range_m) { return land::refraction_slope(land::kRefraction, range_m); }
-
 // The errors of one pose, each of the size of its sigma.
 std::vector<PoseError> errors_of(const PoseSd& sd) {
   std::vector<PoseError> errors;
@@ -46,22 +44,20 @@ AzimuthElevation direction_of(const ScenePanorama& panorama, const Eigen::Vector
 
 Eigen::Vector3d point_ecef(const ScenePanorama& panorama, const Eigen::Vector2d& px,
                            double range_m) {
-  AzimuthElevation direction = direction_of(panorama, px);
-  direction.elevation_rad -= lift_rad(range_m);
+  const AzimuthElevation direction = land::straight(direction_of(panorama, px), range_m);
   return panorama.centre_ecef +
          range_m * (panorama.R_ecef_enu * enu_from_azimuth_elevation(direction));
 }
 
 ScenePixel pixel_of(const ScenePanorama& panorama, const Eigen::Vector3d& p_ecef) {
   const Eigen::Vector3d enu_m = panorama.R_ecef_enu.transpose() * (p_ecef - panorama.centre_ecef);
-  const AzimuthElevation direction = azimuth_elevation_from_enu(enu_m);
   const double range_m = enu_m.norm();
+  const AzimuthElevation direction = land::apparent(azimuth_elevation_from_enu(enu_m), range_m);
   const double half_rad = 0.5 * panorama.gray.cols * panorama.rad_per_px;
   const double middle_rad = panorama.first_azimuth_rad + half_rad;
   const double right_rad = half_rad + wrap_pi(direction.azimuth_rad - middle_rad);
-  const double elevation_rad = direction.elevation_rad + lift_rad(range_m);
   return {{right_rad / panorama.rad_per_px,
-           (panorama.top_elevation_rad - elevation_rad) / panorama.rad_per_px},
+           (panorama.top_elevation_rad - direction.elevation_rad) / panorama.rad_per_px},
           range_m};
 }
 

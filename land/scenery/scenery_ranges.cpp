@@ -295,6 +295,7 @@ class Matcher {
                                      const Eigen::Vector2d& px) const {
     constexpr int kBeside_px = 2;
     const double depth_m = kDepth_m + 1.5 * place.m_per_px * (1 << place.level);
+    if (depth_m > 0.5 * place.range_m) return std::nullopt;
     const RangeInterval ranges{place.range_m - depth_m, place.range_m + depth_m};
     const auto patch =
         find_patch(pyramid_, other_pyramid_, level, px,
@@ -345,6 +346,10 @@ bool is_supported(const Place& place, const std::vector<Place>& all) {
 std::vector<SceneryRange> scenery_ranges(const ScenePanorama& panorama, const ScenePanorama& other,
                                          const PossibleRanges& possible,
                                          const PossibleRanges& possible_other) {
+  constexpr int kLeastSide_px = (2 * kPatchHalf + 1) << (kLevels - 1);  // one patch
+  for (const cv::Mat1b* gray : {&panorama.gray, &other.gray}) {
+    if (std::min(gray->cols, gray->rows) < kLeastSide_px) return {};
+  }
   std::map<std::pair<double, double>, std::vector<Place>> by_px;
   for (const Place& place : Matcher(panorama, other, possible, possible_other).places()) {
     by_px[{place.px.y(), place.px.x()}].push_back(place);

@@ -2,7 +2,7 @@
 // state. Pure, but slow: a minute for two panoramas of 40 by 8 degrees.
 //
 // 1. Corners of one panorama are looked for along their epipolar lines in the other one. A place
-//    counts if it is much liker than any other, and if the search back leads to the corner.
+//    counts if it is much more alike than any other, and if the search back leads to the corner.
 // 2. What is right lies on the epipolar line to a tenth of a pixel, but for what the errors of tilt
 //    and position do to a whole panorama; that is fitted, and the rest must be small.
 // 3. Around each place further corners are looked for at about the same range. Things have an

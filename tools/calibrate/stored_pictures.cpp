@@ -61,8 +61,10 @@ std::vector<StoredPicture> stored_views(const fs::path& folder) {
   auto pictures = stored_pictures(folder, lines.str());
   std::erase_if(pictures, [](const StoredPicture& one) { return !one.is_view; });
   if (pictures.empty()) {
-    throw std::runtime_error((folder / kFramesFile).string() +
-                             ": has no pictures of scenery: take them with `ols-calibrate sweep`");
+    throw std::runtime_error(
+        (folder / kFramesFile).string() +
+        ": has no pictures of scenery. `ols-calibrate field` takes them; so does "
+        "`sweep`, whose pictures `check` takes with --panorama");
   }
   return pictures;
 }

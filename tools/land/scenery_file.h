@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/angles.h"
+
 namespace ols::land {
 
 // A point of the scenery, and how the first station sees it.
@@ -18,6 +20,8 @@ struct SceneryRow {
   double range_sd_m = 0.0;             // 1-sigma, its own for each point
   double range_sd_systematic_m = 0.0;  // 1-sigma, from the poses; all ranges of a pair err alike
 };
+
+inline constexpr double kSceneryWide_rad = radians(0.1);  // two columns of a map
 
 // Throws std::system_error naming the file.
 void write_scenery(const std::string& path, const std::vector<SceneryRow>& rows);

@@ -11,6 +11,7 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
+#include "land/refraction.h"
 #include "land/terrain_folder.h"
 #include "tests/unit/edge/calibration/calibration_files.h"
 #include "tests/unit/error_text.h"
@@ -39,7 +40,7 @@ class SceneryCommand : public FolderTest<> {
     add_station("bravo", 0.5 * kApart_m);
   }
 
-  void add_station(const std::string& id, double east_m) {
+  void add_station(const std::string& id, double east_m, double focal_px = 3333.0) {
     const Geodetic place = geodetic_from_ecef(LocalFrame(kMiddle).to_ecef({east_m, 0.0, 0.0}));
     const std::string config = folder_ + "/" + id + ".toml";
     const std::string pose = fmt::format(
@@ -49,12 +50,12 @@ class SceneryCommand : public FolderTest<> {
     write(
         config,
         fmt::format(
-            "id = \"{}\"\nstate_folder = \"{}\"\n"
-            "lens = {{fx_px = 3333.0, fy_px = 3333.0}}\n\n"
+            "id = \"{0}\"\nstate_folder = \"{1}\"\n"
+            "lens = {{fx_px = {2:.1f}, fy_px = {2:.1f}}}\n\n"
             "[camera]\ndevice = \"x\"\nwidth_px = 640\nheight_px = 240\n\n[ptu]\ndevice = \"p\"\n\n"
-            "{}\n[calibration.sd]\nheading_deg = 0.01\nmount_deg = 0.01\n"
+            "{3}\n[calibration.sd]\nheading_deg = 0.01\nmount_deg = 0.01\n"
             "tilt_deg = 0.01\nposition_m = 0.05\n",
-            id, folder_, pose));
+            id, folder_, focal_px, pose));
     options_.stations.push_back(config);
     const station::StationSettings settings = station::load_station_settings(config);
     const fs::path current = fs::path(folder_) / "calibrations" / id / "current";
@@ -88,8 +89,8 @@ class SceneryCommand : public FolderTest<> {
                                   0,
                                   {{.counts = 112000.0 * pan_deg / 360.0}, {}},
                                   angles};
-      static std::map<std::pair<double, double>, cv::Mat1b> painted_once;
-      cv::Mat1b& gray = painted_once[{east_m, pan_deg}];
+      static std::map<std::array<double, 3>, cv::Mat1b> painted_once;
+      cv::Mat1b& gray = painted_once[{east_m, pan_deg, geometry.camera.fx_px}];
       if (gray.empty()) gray = painted(geometry, angles, east_m);
       cv::imwrite(picture.file.string(), gray);
       lines += line_of(picture, folder) + "\n";
@@ -114,26 +115,69 @@ class SceneryCommand : public FolderTest<> {
     return error_text<std::exception>([&] { run(); });
   }
 
+  LocalFrame camera_of_alfa() const {
+    const StationGeometry geometry =
+        station::load_station_settings(options_.stations.front()).station.geometry;
+    return LocalFrame(geodetic_from_ecef(camera_centre_ecef(geometry, {})));
+  }
+
   SceneryOptions options_;
 };
+
+// The points on the near and on the far wall; all are on one of them. `alfa`: its camera.
+std::array<int, 2> points_on_walls(const std::vector<land::SceneryRow>& rows,
+                                   const LocalFrame& alfa) {
+  std::array<int, 2> found{};
+  for (const land::SceneryRow& row : rows) {
+    const Eigen::Vector3d p_ecef =
+        ecef_from_geodetic({radians(row.latitude_deg), radians(row.longitude_deg), row.height_m});
+    const double north_m = LocalFrame(kMiddle).to_enu(p_ecef).y();
+    const std::size_t wall = north_m < 1500.0 ? 0 : 1;
+    ++found[wall];
+    const double sd_m = std::hypot(row.range_sd_m, row.range_sd_systematic_m);
+    EXPECT_NEAR(north_m, scenery::kWalls[wall].north_m, 4.0 * sd_m);
+    EXPECT_LT(sd_m, 0.5 * land::kSceneryWide_rad * row.range_m);
+    EXPECT_LT(row.height_sd_m, 1.0);
+    const Eigen::Vector3d enu_m = alfa.to_enu(p_ecef);
+    const auto seen = land::apparent(azimuth_elevation_from_enu(enu_m), enu_m.norm());
+    EXPECT_NEAR(wrap_pi(seen.azimuth_rad - radians(row.azimuth_deg)), 0.0, 5e-6);
+    EXPECT_NEAR(seen.elevation_rad, radians(row.elevation_deg), 1e-5);
+    EXPECT_NEAR(enu_m.norm(), row.range_m, 0.02);
+    EXPECT_GT(row.height_m, 103.0) << "the ground is at 100 m";
+  }
+  return found;
+}
 
 TEST_F(SceneryCommand, MeasuresWhatBothSweepsShow) {
   const CommandReport report = run();
   const auto rows = land::read_scenery(options_.output);
-  EXPECT_EQ(report.summary, std::vector{fmt::format("alfa and bravo: {} points", rows.size())});
-  std::array<int, 2> found{};
-  for (const land::SceneryRow& row : rows) {
-    const Eigen::Vector3d enu_m = LocalFrame(kMiddle).to_enu(
-        ecef_from_geodetic({radians(row.latitude_deg), radians(row.longitude_deg), row.height_m}));
-    const std::size_t wall = enu_m.y() < 1500.0 ? 0 : 1;
-    ++found[wall];
-    const double sd_m = std::hypot(row.range_sd_m, row.range_sd_systematic_m);
-    EXPECT_NEAR(enu_m.y(), scenery::kWalls[wall].north_m, 4.0 * sd_m);
-    EXPECT_LT(sd_m, 0.02 * row.range_m);
-    EXPECT_LT(row.height_sd_m, 1.0);
-  }
+  EXPECT_EQ(report.summary.at(0).find(fmt::format("alfa and bravo: {} points;", rows.size())), 0U)
+      << report.summary.at(0);
+  const auto found = points_on_walls(rows, camera_of_alfa());
   EXPECT_GE(found[0], 20);
   EXPECT_GE(found[1], 20);
+}
+
+TEST_F(SceneryCommand, LensesMayDiffer) {
+  fs::remove_all(fs::path(folder_) / "calibrations/bravo");
+  options_.stations.pop_back();
+  add_station("bravo", 0.5 * kApart_m, 5000.0);
+  run();
+  const auto found = points_on_walls(land::read_scenery(options_.output), camera_of_alfa());
+  EXPECT_GE(found[0], 20);
+  EXPECT_GE(found[1], 10);
+}
+
+TEST_F(SceneryCommand, APictureOfAnotherSizeIsNamed) {
+  const fs::path picture = fs::path(folder_) / "calibrations/bravo/current/2.png";
+  cv::imwrite(picture.string(), cv::Mat1b(120, 320, std::uint8_t{90}));
+  EXPECT_NE(refusal().find(picture.string() + ": has 320 x 120 pixels"), std::string::npos)
+      << refusal();
+}
+
+TEST_F(SceneryCommand, OneStationTwiceIsRefused) {
+  options_.stations.push_back(options_.stations.front());
+  EXPECT_NE(refusal().find("alfa and alfa are at the same place"), std::string::npos) << refusal();
 }
 
 TEST_F(SceneryCommand, AStationWithoutPicturesIsNamed) {

@@ -150,7 +150,7 @@ TEST(SceneryRanges, TheEdgeOfThePicturesIsNoScenery) {
   for (ScenePanorama* cut : {&one, &two}) cut->gray.rowRange(120, 200) = kUnseen;
   const auto ranges = scenery_ranges(one, two, anywhere, anywhere);
   EXPECT_GE(ranges.size(), 20U);
-  for (const SceneryRange& range : ranges) EXPECT_LT(range.px.y(), 120.0);
+  for (const SceneryRange& range : ranges) EXPECT_LT(range.px.y(), 111.0);
 }
 
 TEST(PicturePanorama, BothBoxesShowWhatCanStandThere) {
