@@ -356,6 +356,12 @@ void run_site(const land::TerrainFolder& folder, const Options& options, unsigne
               degrees(wrong.watch().heading()->error_rad), wrong.sigmas(),
               wrong.watch().disagrees() ? "noticed" : "not noticed",
               degrees(found.error_rad - own_rad), degrees(found.sd_rad));
+  if (const auto& height = right.watch().height()) {
+    std::printf("; height off by %+.1f +- %.1f m", height->higher_m, height->higher_sd_m);
+  }
+  if (!right.watch().disagrees() && !right.watch().alarm().empty()) {
+    std::printf(": %s", right.watch().alarm().text.c_str());
+  }
   // An obstacle counts only after several pictures.
   for (int seen = 1; options.obstacles > 0 && seen < skyline::SkylineWatch::kPictures; ++seen) {
     right.round(*panorama, 0.0);

@@ -10,7 +10,7 @@
 namespace ols::skyline {
 namespace {
 
-constexpr int kUnknowns = 8;
+constexpr int kUnknowns = 8, kUp = 6;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Design =
     Eigen::Matrix<double, Eigen::Dynamic, kUnknowns + 1>;  // the last column: differences
@@ -161,7 +161,12 @@ std::optional<SkylineHeading> skyline_heading(const std::vector<SeenPlace>& seen
         std::max(1.0, solution.misfit / (static_cast<double>(places.size()) - kUnknowns));
     const double sd_rad = std::sqrt(excess * solution.covariance(0, 0));
     if (std::abs(solution.x(0)) > sd_rad) return std::nullopt;  // it has found no end
-    return SkylineHeading{-(turn_rad + solution.x(0)), sd_rad};
+    SkylineHeading heading{-(turn_rad + solution.x(0)), sd_rad};
+    // Of the two estimates whose mean the solution is, the prior's is zero.
+    const double precision = 1.0 / solution.covariance(kUp, kUp) - 1.0 / std::pow(prior_sd(kUp), 2);
+    heading.higher_m = solution.x(kUp) / (solution.covariance(kUp, kUp) * precision);
+    heading.higher_sd_m = std::sqrt(excess / precision);
+    return heading;
   }
 }
 

@@ -29,6 +29,9 @@ namespace ols::skyline {
 struct SkylineHeading {
   double error_rad = 0.0;  // the station's heading minus the skyline's
   double sd_rad = 0.0;     // 1-sigma; includes the error of the model of the land
+  // By how much the camera is higher above the land than the station states, from the pictures
+  // alone: place_enu_m.z() of the prior is not used.
+  double higher_m = 0.0, higher_sd_m = 0.0;
 };
 
 // 1-sigma of the station's own errors before anything is seen. While little has been seen, these

@@ -35,7 +35,8 @@ void SkylineWatch::clear() {
   hiding_ = {};
   disagreed_s_.clear();
   heading_.reset();
-  disagrees_ = false;
+  height_.reset();
+  disagrees_ = height_disagrees_ = false;
 }
 
 // Below the ground by more than the map takes, but by no more than the station may err in its
@@ -115,6 +116,21 @@ void SkylineWatch::note_obstacles(const StatedPicture& picture, const PictureVie
     if (crest) take(place, *crest, picture);
   }
   remove_old(picture.mid_exposure_s);
+  compare_height(picture);
+}
+
+// Heights above another zero than the land's folder says shift the whole skyline by tens of metres,
+// farther than compare() searches.
+void SkylineWatch::compare_height(const StatedPicture& newest) {
+  constexpr double kUnknown_m = 200.0;
+  StationSd sd{std::hypot(kHeadingSd_rad, newest.azimuth_sd_rad),
+               std::hypot(kTiltSd_rad, newest.elevation_sd_rad), place_sd_enu_m(newest)};
+  stated_height_sd_m_ = std::exchange(sd.place_enu_m.z(), kUnknown_m);
+  height_ = skyline_heading(obstacles_.places(), *map_, sd);
+  const double limit = height_disagrees_ ? kEnds : kBegins;
+  height_disagrees_ =
+      height_ && std::abs(height_->higher_m) >
+                     limit * std::hypot(height_->higher_sd_m, stated_height_sd_m_);
 }
 
 void SkylineWatch::take(const SeenPlace& place, const land::SeenCrest& crest,
@@ -158,9 +174,12 @@ double SkylineWatch::difference_sd_rad() const {
 
 Alarm SkylineWatch::alarm() const {
   if (!why_none_.empty()) return alarm::skyline_not_compared(why_none_);
-  if (!disagrees_) return {};
-  return alarm::heading_disagrees_with_skyline(degrees(heading_->error_rad),
-                                               degrees(difference_sd_rad()));
+  if (disagrees_) {
+    return alarm::heading_disagrees_with_skyline(degrees(heading_->error_rad),
+                                                 degrees(difference_sd_rad()));
+  }
+  if (!height_disagrees_) return {};
+  return alarm::land_height_disagrees(-height_->higher_m, height_->higher_sd_m);
 }
 
 }  // namespace ols::skyline

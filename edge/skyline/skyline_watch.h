@@ -60,6 +60,9 @@ class SkylineWatch {
   // station states.
   double difference_sd_rad() const;
   bool disagrees() const { return disagrees_; }
+  // As heading(), but from the wider search, and with nothing known of the camera's height above
+  // the land; nullopt while too little of the skyline has been seen.
+  const std::optional<SkylineHeading>& height() const { return height_; }
   // Each column of the skyline as it was seen last; empty before anything is seen. A column that
   // disagrees with the land is included only after several pictures have confirmed it: at least
   // kPictures, taken over at least kApart_s, with elevations that agree to within kSame_rad. It is
@@ -69,8 +72,8 @@ class SkylineWatch {
   // that skyline was seen.
   void resume(HidingSkyline earlier) { earlier_ = std::move(earlier); }
 
-  // The alarm that the heading is wrong, or that the land does not fit the station's position;
-  // empty otherwise.
+  // The alarm that the heading is wrong, or that the land does not fit the station's position or
+  // height; empty otherwise.
   Alarm alarm() const;
 
   static constexpr double kMoved_m = 5.0;
@@ -90,6 +93,7 @@ class SkylineWatch {
   Geodetic camera_of_map(const Geodetic& stated, double height_sd_m) const;
   Eigen::Vector3d place_sd_enu_m(const StatedPicture& picture) const;
   void compare(const StatedPicture& newest);
+  void compare_height(const StatedPicture& newest);
   void note_obstacles(const StatedPicture& picture, const PictureView& view, const Rows& expected);
   void take(const SeenPlace& place, const land::SeenCrest& crest, const StatedPicture& picture);
   void remove_old(double now_s);
@@ -108,9 +112,10 @@ class SkylineWatch {
   // When each column that disagrees with the land was last seen.
   std::map<int, double> disagreed_s_;
   std::optional<HidingSkyline> earlier_;
-  std::optional<SkylineHeading> heading_;
+  std::optional<SkylineHeading> heading_, height_;
+  double stated_height_sd_m_ = 0.0;  // of the camera above the land, when `height_` was computed
   double stated_sd_rad_ = 0.0;  // stated 1-sigma of the azimuths from which `heading_` was computed
-  bool disagrees_ = false;
+  bool disagrees_ = false, height_disagrees_ = false;
 };
 
 }  // namespace ols::skyline

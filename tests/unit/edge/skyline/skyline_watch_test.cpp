@@ -312,5 +312,26 @@ TEST_F(SkylineWatchTest, WhyThereIsNoMapIsSaidAsLongAsThereIsNone) {
   }
 }
 
+// Heights above the ellipsoid, taken as above the geoid, or the reverse.
+TEST_F(SkylineWatchTest, ALandWithAnotherZeroOfHeightsIsSaid) {
+  Geodetic high = site_.camera();
+  high.height_m += 30.0;
+  turn_around({high});
+  EXPECT_TRUE(says("m higher than its folder says")) << watch_.alarm().text;
+  ASSERT_TRUE(watch_.height());
+  EXPECT_NEAR(watch_.height()->higher_m, -30.0, 6.0);
+  EXPECT_FALSE(watch_.disagrees());
+  high.height_m = site_.camera().height_m - 30.0;
+  turn_around({high});
+  EXPECT_TRUE(says("skyline: the land is -")) << watch_.alarm().text;
+}
+
+TEST_F(SkylineWatchTest, AHeightThatTheStationDoesNotKnowIsNoNews) {
+  Geodetic high = site_.camera();
+  high.height_m += 30.0;
+  turn_around({.place = high, .position_sd_m = 20.0});
+  EXPECT_TRUE(watch_.alarm().empty()) << watch_.alarm().text;
+}
+
 }  // namespace
 }  // namespace ols::skyline
