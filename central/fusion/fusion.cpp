@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "central/fusion/track_intake.h"
+#include "central/ground/station_on_land.h"
 #include "central/measurement/time_span.h"
 #include "conditions/refusal.h"
 #include "wire/cue_values.h"
@@ -238,8 +239,20 @@ void Fusion::begin_time_line() {
   admission_.begin_time_line();
 }
 
+void Fusion::add_land_alarms(std::vector<Alarm>& alarms) const {
+  if (!config_.land.surface) return;
+  for (const auto& [name, station] : admission_.stations().all()) {
+    const StationTraits& traits = station.traits;
+    if (traits.camera_ecef.isZero()) continue;  // no bearing yet
+    const Alarm alarm =
+        station_on_land(name, traits.camera_ecef, traits.camera_sd_enu_m, *config_.land.surface);
+    if (!alarm.empty()) alarms.push_back(alarm);
+  }
+}
+
 FusionHealth Fusion::health(std::int64_t present_us) const {
   FusionHealth health = health_of(admission_, pointing_, unassociated_, tracks_, log_);
+  add_land_alarms(health.alarms);
   health.cues = cues_.health(present_us == 0 ? now_us() : present_us);
   std::ranges::move(handover_.health(now_us()), std::back_inserter(health.cues));
   health.handover = handover_.mode();

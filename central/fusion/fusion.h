@@ -82,6 +82,7 @@ class Fusion {
   // for the other bearings of its image.
   BearingRefusal take(const BearingMeasurement& measurement, std::vector<ImageBearings>& used);
   std::vector<BearingRefusal> associate(const ImageBearings& image);
+  void add_land_alarms(std::vector<Alarm>& alarms) const;
   void note_unassociated(const BearingMeasurement& measurement, const Association& result);
   void forget(const std::string& station);
   void forget_what_changed(const BearingMeasurement& measurement, const Admitted& admitted);

@@ -118,6 +118,41 @@ TEST(FusionWithLand, PublishesNoGhostsBelowOrBehindIt) {
   EXPECT_GE(drone_with, drone_without);
 }
 
+// The alarms of a fusion with this land and two stations at the height of the site's origin.
+std::string alarms_with(std::shared_ptr<const Land> land, double position_sd_m) {
+  FusionConfig config;
+  config.land.surface = std::move(land);
+  Fusion fusion(config);
+  std::mt19937_64 random(3);
+  const WorldConfig world{.stations_enu = {{-250, 0, 0}, {250, 0, 0}}, .aims_enu = {}};
+  const Path path = cruising({{0, 300, 90}, {5, 2, 0}}, 0.1, 1.0, random);
+  for (BearingMeasurement& one : measure(world, {path}, 1.0, random)) {
+    one.sight.origin_sd_enu_m.setConstant(position_sd_m);
+    fusion.add(one);
+  }
+  std::string texts;
+  for (const Alarm& alarm : fusion.health().alarms) texts += alarm.text + '\n';
+  return texts;
+}
+
+TEST(FusionWithLand, SaysWhichStationDoesNotStandOnIt) {
+  const auto level = [](double above_m) {
+    return land_of([=](double, double) { return site().origin().height_m + above_m; }, 1.0);
+  };
+  const std::string under = alarms_with(level(30.0), 2.0);
+  EXPECT_NE(under.find("station s0: stands 30 m under the ground of the land"), std::string::npos)
+      << under;
+  EXPECT_NE(under.find("station s1: stands 30 m under"), std::string::npos) << under;
+  EXPECT_EQ(alarms_with(level(30.0), 20.0).find("land"), std::string::npos);
+  EXPECT_EQ(alarms_with(level(-30.0), 2.0).find("land"), std::string::npos);
+  Geodetic far = site().origin();
+  far.latitude_rad += 0.01;
+  const auto elsewhere = std::make_shared<const Land>([](double, double) { return 0.0; }, 1.0, far);
+  const std::string outside = alarms_with(elsewhere, 2.0);
+  EXPECT_NE(outside.find("station s0: stands outside of the known land"), std::string::npos)
+      << outside;
+}
+
 // One station 60 m above hills follows a vehicle; after half of the time a second one, too.
 TEST(FusionWithLand, GivesAPositionOfWhatStandsOnTheGroundFromOneStation) {
   constexpr double kLong_s = 6.0, kSecond_s = 3.0, kModelSd_m = 0.5;
