@@ -45,10 +45,11 @@ Height near_foot(const Step& first, double distance_m) {
 }
 
 Height height_at(Steps steps, double distance_m) {
+  const Step& last = steps.back();
+  if (!(distance_m < last.distance_m)) return {last.elevation_rad, last.elevation_sd_rad};
   const auto after = std::ranges::upper_bound(steps, distance_m, {}, &Step::distance_m);
   if (after == steps.begin()) return near_foot(*after, distance_m);
   const Step& from = after[-1];
-  if (after == steps.end()) return {from.elevation_rad, from.elevation_sd_rad};
   const auto mix = [&](float Step::*value) {
     return interpolate(distance_m, from.distance_m, after->distance_m, from.*value,
                        (*after).*value);
