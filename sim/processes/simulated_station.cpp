@@ -131,7 +131,8 @@ SimulatedStation::SimulatedStation(const World& world, std::size_t index,
       unit_(world.ptu_unit_config(), derived_seed(world.seed(), kUnitTag + index),
             clock_monotonic_s()),
       exposed_(world.stations()[index].unit, world.ptu_unit_config()),
-      renderer_(std::move(make_renderers(world)[index])) {
+      renderer_(std::make_unique<Renderer>(
+          world, index, slopes_texture(world.scenario().landscape, world.scenario().camera))) {
   const ZoomScenario& zoom = world.scenario().stations[index].zoom;
   if (!zoom.is_fixed()) {
     lens_unit_.emplace(LensUnitConfig{.zoom_travel_s = zoom.travel_s}, clock_monotonic_s());

@@ -6,6 +6,7 @@
 
 #include "geometry/angles.h"
 #include "geometry/direction.h"
+#include "sim/world/remembered.h"
 #include "sim/world/texture.h"
 
 namespace ols::sim {
@@ -40,8 +41,14 @@ std::vector<float> relief(int length, std::mt19937_64& generator) {
   return sum;
 }
 
-// Brightness of the sky over azimuth and elevation: a gradient and soft clouds.
-cv::Mat sky_panorama(double cloudiness, std::mt19937_64& generator) {
+struct Sky {
+  cv::Mat brightness;         // over azimuth and elevation
+  std::mt19937_64 generator;  // in its state after the sky
+};
+
+// A gradient and soft clouds.
+Sky sky_panorama(double cloudiness, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
   const cv::Size size(static_cast<int>(std::lround(2.0 * kPi / kSkyTexel)),
                       static_cast<int>(std::lround((kSkyTop - kSkyBottom) / kSkyTexel)));
   cv::Mat sky = fractal_noise(size, 160, 2.5, 0.55, generator);
@@ -54,16 +61,20 @@ cv::Mat sky_panorama(double cloudiness, std::mt19937_64& generator) {
       value = static_cast<float>(gradient + cloudiness * (56.0 * cloud - 34.0));
     }
   }
-  return sky;
+  return {sky, generator};
 }
 
 }  // namespace
 
 cv::Mat slopes_texture(const Landscape& landscape, const CameraIntrinsics& camera) {
-  std::mt19937_64 generator(static_cast<std::uint64_t>(landscape.seed));
+  thread_local Remembered<int, cv::Mat> woods;
+  const cv::Mat period = woods.of(landscape.seed, [&landscape] {
+    std::mt19937_64 generator(static_cast<std::uint64_t>(landscape.seed));
+    return wood(kPeriod, generator);
+  });
   const int copies = 2 + static_cast<int>(std::floor(2.0 * reach_px(camera) / kPeriod));
   cv::Mat slopes;
-  cv::repeat(wood(kPeriod, generator), copies, copies, slopes);
+  cv::repeat(period, copies, copies, slopes);
   slopes.convertTo(slopes, CV_8U, 1.0 - landscape.haze, landscape.haze * kAirLight);
   return slopes;
 }
@@ -71,11 +82,14 @@ cv::Mat slopes_texture(const Landscape& landscape, const CameraIntrinsics& camer
 Panorama::Panorama(const Landscape& landscape, const CameraIntrinsics& camera,
                    const cv::Mat& slopes, std::uint64_t seed)
     : camera_(camera), made_for_px_(camera.fx_px), slopes_(slopes) {
-  std::mt19937_64 generator(seed);
+  thread_local Remembered<std::pair<std::uint64_t, double>, Sky> skies;
+  const double cloudiness = landscape.cloudiness;
+  auto [sky, generator] =
+      skies.of({seed, cloudiness}, [=] { return sky_panorama(cloudiness, seed); });
+  sky_ = sky;
   const double periods = std::max(4.0, std::round(2.0 * kPi * camera.fx_px / kPeriod));
   const int around = static_cast<int>(periods) * kPeriod;
   texels_per_rad_ = around / (2.0 * kPi);
-  sky_ = sky_panorama(landscape.cloudiness, generator);
   ridge_ = relief(around, generator);
   const std::vector<float> tops = tree_tops(around, generator);
   for (std::size_t u = 0; u < ridge_.size(); ++u) {

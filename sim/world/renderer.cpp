@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "sim/scenario/normal.h"
+
 namespace ols::sim {
 namespace {
 
@@ -144,9 +146,10 @@ Renderer::Renderer(const World& world, std::size_t station, const cv::Mat& slope
   noise_.resize(kNoiseStrip, 0);
   if (e.noise.on) {
     std::mt19937_64 generator(derived_seed(world.seed(), kNoiseTag + station));
-    std::normal_distribution<double> normal(0.0, e.noise.sd_gray * kLevel);
+    Normal<double> normal;
     for (auto& n : noise_) {
-      n = static_cast<std::int16_t>(std::clamp(normal(generator), -120.0 * kLevel, 120.0 * kLevel));
+      n = static_cast<std::int16_t>(std::clamp(e.noise.sd_gray * kLevel * normal(generator),
+                                               -120.0 * kLevel, 120.0 * kLevel));
     }
   }
   // Brightness falls with the square of the distance from the centre: a sum of two squares.

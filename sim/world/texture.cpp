@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/scenario/normal.h"
+
 namespace ols::sim {
 namespace {
 
@@ -13,7 +15,7 @@ cv::Mat octave(cv::Size size, double wavelength_px, std::mt19937_64& generator) 
   const int columns = std::max(2, static_cast<int>(std::lround(size.width / wavelength_px)));
   const int rows = std::max(2, static_cast<int>(std::lround(size.height / wavelength_px)));
   cv::Mat grid(rows, columns, CV_32F), wrapped, large;
-  std::normal_distribution<float> normal;
+  Normal<float> normal;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) grid.at<float>(y, x) = normal(generator);
   }
