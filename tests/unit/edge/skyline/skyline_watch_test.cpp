@@ -42,13 +42,14 @@ struct Stated {
 // A station that turns around and looks at the true land; the watch knows the model of it.
 class SkylineWatchTest : public ::testing::Test {
  protected:
-  SkylineWatchTest()
-      : panorama_(landscape(), wide_camera(), sim::slopes_texture(landscape(), wide_camera()), 4),
-        watch_(std::make_shared<land::MadeLand>(site_.model()), quick_map()) {
-    panorama_.raise([](double azimuth_rad) {
+  static sim::Panorama drawn_land() {
+    sim::Panorama panorama(landscape(), wide_camera(),
+                           sim::slopes_texture(landscape(), wide_camera()), 4);
+    panorama.raise([](double azimuth_rad) {
       const auto skyline = truth_.skyline(azimuth_rad);
       return skyline ? skyline->elevation_rad : -0.5;
     });
+    return panorama;
   }
 
   static sim::Landscape landscape() {
@@ -110,8 +111,9 @@ class SkylineWatchTest : public ::testing::Test {
 
   static inline const MadeSite site_{4};
   static inline const land::HorizonMap truth_{site_.truth(), site_.camera(), quick_map()};
-  sim::Panorama panorama_;
-  SkylineWatch watch_;
+  static inline const sim::Panorama land_ = drawn_land();
+  sim::Panorama panorama_ = land_;
+  SkylineWatch watch_{std::make_shared<land::MadeLand>(site_.model()), quick_map()};
   double time_s_ = 0.0;
 };
 
@@ -220,7 +222,6 @@ TEST_F(SkylineWatchTest, WhatIsHigherHidesNothingWhereEachPictureShowsItElsewher
 }
 
 TEST_F(SkylineWatchTest, WhatIsHigherIsKeptForADayOrUntilTheLandIsSeenThere) {
-  const sim::Panorama land = panorama_;
   see_obstacle();
   time_s_ += 0.9 * SkylineWatch::kKept_s;
   look(200.0, {site_.camera()});
@@ -230,7 +231,7 @@ TEST_F(SkylineWatchTest, WhatIsHigherIsKeptForADayOrUntilTheLandIsSeenThere) {
   EXPECT_FALSE(crest(100.0));
   see_obstacle();
   ASSERT_TRUE(crest(100.0)->disagrees);
-  panorama_ = land;
+  panorama_ = land_;
   look(100.0, {site_.camera()});
   EXPECT_FALSE(crest(100.0)->disagrees);
 }
