@@ -26,11 +26,11 @@ bool measure(const std::string& what, bool quick, int runs, std::optional<int> s
   if (all || what == "least-squares") least_squares_bound(20 * runs, limits);
   if (all || what == "filter") filter_bounds(runs, limits);
   if (all || what == "paper") against_paper(std::max(20, runs / 5), limits);
-  if (all || what == "targets") several(std::max(2, runs / 5), limits);
+  if (all || what == "targets") several(std::max(2, runs / (quick ? 10 : 5)), limits);
   if (what == "traffic" || (all && !quick)) traffic(std::max(2, runs / 10), limits);
   if (what == "handover" || (all && !quick)) handover(std::max(2, runs / 2), limits);
   if (all || what == "meteors") meteors(2 * runs, limits);
-  if (all || what == "noise-only") noise_only(runs, limits);
+  if (all || what == "noise-only") noise_only(quick ? runs / 2 : runs, limits);
   if (what == "classes" || (all && !quick)) classes(5 * runs, limits);
   if (what == "cost" || (all && !quick)) cost(limits, stations);
   return limits.missed() == 0;
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   app.add_option("--runs", runs, "Monte Carlo runs of each measure")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
-  app.add_flag("--quick", quick, "the measures of accuracy alone, in half of the runs");
+  app.add_flag("--quick", quick, "the measures of accuracy alone, in half of the runs or fewer");
   app.add_option(
          "measure", what,
          "all, least-squares, filter, paper, targets, traffic, handover, meteors, noise-only, "
