@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/scenario/normal.h"
+
 namespace ols::sim {
 namespace {
 
@@ -38,6 +40,19 @@ TEST(Texture, TreeTopsStandOnTheLine) {
   ASSERT_EQ(tops.size(), 1000U);
   EXPECT_TRUE(std::ranges::all_of(tops, [](float top) { return top >= 0.0F && top <= 38.0F; }));
   EXPECT_GT(*std::ranges::max_element(tops), 5.0F);
+}
+
+template <typename Real>
+void expect_the_librarys_numbers() {
+  std::mt19937_64 own(3), librarys(3);
+  Normal<Real> normal;
+  std::normal_distribution<Real> same;
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(normal(own), same(librarys)) << i;
+}
+
+TEST(Normal, NumbersAreThoseOfTheLibrary) {
+  expect_the_librarys_numbers<float>();
+  expect_the_librarys_numbers<double>();
 }
 
 }  // namespace
