@@ -74,9 +74,11 @@ def ptu_is(loop, state):
     return bool(devices) and devices["ptu"] == state
 
 
-def slew(loop, pan_deg, tilt_deg):
+def slew(pan_deg, tilt_deg):
+    """A unit that answers half a second late is lost: its station starts it again, and refuses."""
     done = finished(BIN / "ols-ctl", STATION, "manual", pan_deg, tilt_deg)
-    assert done.returncode == 0, done.stdout + done.stderr
+    accepted = done.returncode == 0 or "there is no pan-tilt unit" in done.stdout
+    assert accepted, done.stdout + done.stderr
 
 
 def views_until_there(loop, pan_deg, tilt_deg):
@@ -86,7 +88,7 @@ def views_until_there(loop, pan_deg, tilt_deg):
     answers too late, as it may on a busy machine.
     """
     seen = {}
-    slew(loop, pan_deg, tilt_deg)
+    slew(pan_deg, tilt_deg)
 
     def there():
         view = loop.observer.view.get(STATION)
@@ -99,7 +101,7 @@ def views_until_there(loop, pan_deg, tilt_deg):
             seen[view.frame] = (*angles, *loop.unit.angles_deg(at_s))
             last = np.array(list(seen.values())[-4:])
             if len(seen) % 8 == 0 and np.ptp(last[:, 2:], axis=0).max() < 0.05:
-                slew(loop, pan_deg, tilt_deg)
+                slew(pan_deg, tilt_deg)
         return np.all(np.abs(angles - [pan_deg, tilt_deg]) < 0.05)
 
     loop.wait(there, f"view at {pan_deg}, {tilt_deg} deg", DEADLINE_S)
