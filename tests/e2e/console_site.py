@@ -35,6 +35,7 @@ TARGET = geodetic(49.2265, 16.597, 380.0)
 FULL_PX = (1280, 960)
 LOW_SUPPLY = ("ptu_supply_low", {"volts": "11.2"})
 DEADLINE_S = 45.0
+PERIOD_S = 0.5  # of everything that a paper site sends
 PASSWORD = "correct horse"  # of ana
 STATUS, PTU = ols_msg.station_status_t, ols_msg.ptu_command_t
 COMMANDS = {
@@ -66,7 +67,8 @@ class PaperTarget:
 
 
 class PaperSite(threading.Thread):
-    """Sends at the rates of a real site until it is ended."""
+    """Sends until it is ended: less often than a real site, whose rates would be most of what the
+    tests in a browser cost."""
 
     def __init__(self):
         super().__init__(daemon=True)
@@ -327,7 +329,7 @@ class PaperSite(threading.Thread):
                 pass
             if time.monotonic() < due:
                 continue
-            due = time.monotonic() + 0.2
+            due = time.monotonic() + PERIOD_S
             self._send_all()
 
     def end(self) -> None:
