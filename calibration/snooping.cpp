@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -157,14 +159,28 @@ class Agreement {
   MatrixXd prior_;
 };
 
+constexpr int kMostTries = 40;
+
+// Whether so many tries suffice: as sure as kMostTries are where half of the groups are mistaken,
+// if those that do not agree with the best heading, and one more, are.
+bool are_enough(int tries, int agree, std::size_t groups) {
+  const double mistaken = 1.0 - agree / (1.0 + static_cast<double>(groups));
+  return tries * std::log2(mistaken) <= -kMostTries;
+}
+
 std::vector<double> headings_tried(const Adjustment& adjustment, const State& state,
                                    const std::vector<std::size_t>& groups) {
   // Each try asks all groups. So many, from all of them evenly, cannot all be mistaken: of a round
   // in which half are, one in a million millions.
-  constexpr std::size_t kMost = 40;
-  const std::size_t tries = std::min(kMost, groups.size());
+  const std::size_t tries = std::min<std::size_t>(kMostTries, groups.size());
+  std::vector<std::size_t> order(tries);
+  std::iota(order.begin(), order.end(), 0);
+  // By the golden section: whoever stops early has asked all parts of the round.
+  std::ranges::sort(order, {}, [](std::size_t i) {
+    return std::fmod(std::numbers::phi * static_cast<double>(i), 1.0);
+  });
   std::vector<double> headings;
-  for (std::size_t i = 0; i < tries; ++i) {
+  for (const std::size_t i : order) {
     const std::size_t g = groups[i * groups.size() / tries];
     const std::size_t block = adjustment.groups()[g].blocks.front();
     const auto heading = adjustment.network().blocks[block]->heading(state, block);
@@ -195,7 +211,9 @@ double heading_of(const Adjustment& adjustment, std::size_t station, double leve
   std::vector<double> headings = stated_headings(own);
   double heading = headings[station];
   Agreement::Vote best{-1, 0.0};
+  int tries = 0;
   for (const double tried : headings_tried(own, own.start(headings), groups)) {
+    if (are_enough(tries++, std::max(0, best.agree), groups.size())) break;
     headings[station] = tried;
     const Agreement::Vote vote = agreement.vote(own.start(headings), groups);
     if (!(vote < best)) continue;

@@ -32,6 +32,20 @@ TEST(Snooping, FindsTwiceADetectableBias) {
   EXPECT_EQ(rejected(biased, calibrate(biased)), std::vector<std::string>{"landmark3"});
 }
 
+// A round whose beginning is mistaken, each landmark by another angle: few sightings are asked for
+// a heading, and the first of them are wrong.
+TEST(Snooping, FindsTheHeadingThoughTheRoundBeginsMistaken) {
+  const int count = 80, mistaken = 30;
+  Problem problem = landmarks_around(hill(), just_put_up(), count);
+  for (int i = 0; i < 2 * mistaken; ++i) {
+    problem.observations[static_cast<std::size_t>(i)].reading.pan.counts += 2000.0 + 500.0 * i;
+  }
+  const Adjustment adjustment(network_of(problem));
+  const Start start = find_start(adjustment, Levels{}.mistaken);
+  EXPECT_NEAR(start.state.stations[0].model.geometry.chain.heading_rad,
+              hill().geometry.chain.heading_rad, radians(0.05));
+}
+
 // What the linear tests foretell is what an adjustment without, or with, the group has.
 TEST(Snooping, AStatisticIsTheChangeOfTheMisfit) {
   Problem problem = landmarks_around(hill(), hill(), 6);
