@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from conftest import BIN, ROOT, finished
+from helpers import at_frame_rate
 from ols_demo.recording import Recording
 from ols_faults import cases_stop, measure
 from ols_faults.case import Outcome
@@ -90,7 +91,9 @@ def test_what_was_not_measured_does_not_pass():
 @pytest.fixture(scope="module")
 def cases(network, tmp_path_factory):
     folder = tmp_path_factory.mktemp("faults")
+    scenario = at_frame_rate(ROOT / "sim/scenarios/faults.toml", 6.0, folder)
     command = [sys.executable, "-m", "ols_faults", "--output", str(folder), "--bin", str(BIN)]
+    command += ["--scenario", str(scenario)]
     command += [argument for name in CASES for argument in ("--only", name)]
     done = finished(*command, cwd=ROOT)
     assert (folder / "faults.json").exists(), done.stdout + done.stderr

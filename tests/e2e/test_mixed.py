@@ -5,12 +5,17 @@ import sys
 from os.path import relpath
 
 from conftest import BIN, ROOT, finished
+from helpers import at_frame_rate
 
 
 def test_stations_of_every_kind_locate_the_target(network, tmp_path):
     report = tmp_path / "r.json"
+    scenario = at_frame_rate(ROOT / "sim/scenarios/mixed.toml", 6.0, tmp_path)
+    with scenario.open("a") as file:
+        # Switched on in time: it would answer nothing for twenty seconds.
+        file.write("\n[ptu]\nhome_at_power_up = false\n")
     command = [sys.executable, "-m", "ols_demo", "--operator", "--headless", "--seconds", "5"]
-    command += ["--scenario", str(ROOT / "sim/scenarios/mixed.toml"), "--report", str(report)]
+    command += ["--scenario", str(scenario), "--report", str(report)]
     command += ["--output", str(tmp_path), "--bin", relpath(BIN, ROOT)]
     done = finished(*command, cwd=ROOT)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -13,6 +13,7 @@ import lcm
 import pytest
 from conftest import BIN, ROOT, finished, wait
 from console_site import Api, address_of
+from helpers import at_frame_rate
 from ols_demo.bus import decode
 from ols_demo.site import Site
 from PIL import Image
@@ -26,8 +27,9 @@ def run(network, tmp_path_factory):
     report = folder / "r.json"
     command = [sys.executable, "-m", "ols_demo", "--operator", "--headless"]
     command += ["--seconds", str(RUN_S)]
-    # Small pictures: two ordinary processors have other tests to run as well.
-    command += ["--scenario", str(ROOT / "sim/scenarios/faults.toml")]
+    # Small and few pictures: two ordinary processors have other tests to run as well.
+    scenario = at_frame_rate(ROOT / "sim/scenarios/faults.toml", 6.0, folder)
+    command += ["--scenario", str(scenario)]
     command += ["--report", str(report), "--output", str(folder), "--bin", relpath(BIN, ROOT)]
     done = finished(*command, cwd=ROOT)
     assert done.returncode == 0, done.stdout + done.stderr
