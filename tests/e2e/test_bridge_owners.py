@@ -1,6 +1,7 @@
 """Two fusions that see the same target, on the real store of owners: one publishes it, a hand-over
 at the border, a killed owner replaced, and a store that does not answer."""
 
+import functools
 import itertools
 import math
 import signal
@@ -27,6 +28,7 @@ pytestmark = needs_server
 
 BORDER_DEG, LATITUDE_DEG, HEIGHT_M = 17.0, 49.5, 500.0
 METRES_PER_DEGREE = 72216.0
+PAUSE_S = 0.03  # between two messages of a fusion
 WEST, EAST = (11, "[49.0, 16.0, 50.0, 17.0]"), (22, "[49.0, 17.0, 50.0, 18.0]")
 OWNERS = '[ownership]\nshare = true\nname = "{}"\ndomain = "hub"\ncell_deg = {}\n'
 
@@ -43,6 +45,10 @@ def target(target_id, east_m, sequence, speed_m_s=0.0):
     message.velocity_ecef_m_s = [-speed_m_s * math.sin(east), speed_m_s * math.cos(east), 0.0]
     message.position_covariance_enu_m2 = [4.0, 0.0, 0.0, 4.0, 0.0, 4.0]
     return message.encode()
+
+
+# Each turn looks at all that was heard until then.
+decoded = functools.cache(ols_msg.target_t.decode)
 
 
 def watcher_of_targets():
@@ -83,7 +89,7 @@ class Sky:
         confirmed) of each published target."""
         for at, subject, headers, data in list(self.watcher.heard):
             if subject.endswith(".target"):
-                message = ols_msg.target_t.decode(data)
+                message = decoded(data)
                 when, epoch = (self.said_s[message.sequence], at), int(headers["Ols-Epoch"])
                 is_confirmed = "Ols-Unconfirmed" not in headers
                 yield when, message.target_id, headers["Ols-Target"], epoch, is_confirmed
@@ -109,6 +115,7 @@ class Sky:
         last, self.speed_m_s = time.monotonic(), math.copysign(speed_m_s, to_m - self.east_m)
         while (to_m - self.east_m) * self.speed_m_s > 0:
             self.say()
+            time.sleep(PAUSE_S)
             now = time.monotonic()
             self.east_m += self.speed_m_s * (now - last)
             last = now
