@@ -128,9 +128,8 @@ void SkylineWatch::compare_height(const StatedPicture& newest) {
   stated_height_sd_m_ = std::exchange(sd.place_enu_m.z(), kUnknown_m);
   height_ = skyline_heading(obstacles_.places(), *map_, sd);
   const double limit = height_disagrees_ ? kEnds : kBegins;
-  height_disagrees_ =
-      height_ && std::abs(height_->higher_m) >
-                     limit * std::hypot(height_->higher_sd_m, stated_height_sd_m_);
+  height_disagrees_ = height_ && std::abs(height_->higher_m) >
+                                     limit * std::hypot(height_->higher_sd_m, stated_height_sd_m_);
 }
 
 void SkylineWatch::take(const SeenPlace& place, const land::SeenCrest& crest,

@@ -178,7 +178,9 @@ CLI::App* add_delay(CLI::App& app, DelayOptions& o) {
   delay->add_option("--period", o.blinking.period_s, "[s] of the light; periods begin at UTC 0")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 60.0));
-  delay->add_option("--lit", o.blinking.lit_s, "[s] for which it is on, from the beginning of a period")
+  delay
+      ->add_option("--lit", o.blinking.lit_s,
+                   "[s] for which it is on, from the beginning of a period")
       ->capture_default_str()
       ->check(CLI::Range(0.001, 60.0));
   delay->add_flag("--write", o.write, "change [camera] of the station's configuration");
