@@ -115,11 +115,14 @@ def test_a_cut_link_during_a_hold_leaves_the_unit_at_rest(site):
         cut_s = cable.cut()
         stands = lambda: shaft.stands_since(cut_s)  # noqa: E731
         listen(bus, stands, lambda: "the unit at rest")
+        rested_us = shaft.samples[-1][0] * 1e6
         no_connection = page.get_by_text("No connection to the console")
         expect(no_connection).to_be_visible()
         # And it stays there, whatever is still held, and by the station's own word.
         cable.mend()
         expect(no_connection).to_be_hidden()
+        # The newest status may have been sent before it stood.
+        listen(bus, lambda: shaft.status[STATION].utime > rested_us, lambda: "its status at rest")
         status, angle = shaft.status[STATION], shaft.samples[-1][1]
         later = lambda: shaft.status[STATION].utime > status.utime + 1_500_000  # noqa: E731
         listen(bus, later, lambda: "its status")
