@@ -28,7 +28,6 @@ pytestmark = needs_server
 
 BORDER_DEG, LATITUDE_DEG, HEIGHT_M = 17.0, 49.5, 500.0
 METRES_PER_DEGREE = 72216.0
-PAUSE_S = 0.03  # between two messages of a fusion
 WEST, EAST = (11, "[49.0, 16.0, 50.0, 17.0]"), (22, "[49.0, 17.0, 50.0, 18.0]")
 OWNERS = '[ownership]\nshare = true\nname = "{}"\ndomain = "hub"\ncell_deg = {}\n'
 
@@ -112,13 +111,15 @@ class Sky:
 
     def fly(self, to_m, speed_m_s=1500.0):
         """Its messages say how fast: one that was lost for a moment is known again where it is."""
-        last, self.speed_m_s = time.monotonic(), math.copysign(speed_m_s, to_m - self.east_m)
-        while (to_m - self.east_m) * self.speed_m_s > 0:
+        from_m, begun_s = self.east_m, time.monotonic()
+        self.speed_m_s = math.copysign(speed_m_s, to_m - from_m)
+
+        def is_there():
             self.say()
-            time.sleep(PAUSE_S)
-            now = time.monotonic()
-            self.east_m += self.speed_m_s * (now - last)
-            last = now
+            self.east_m = from_m + self.speed_m_s * (time.monotonic() - begun_s)
+            return (to_m - self.east_m) * self.speed_m_s <= 0
+
+        wait(is_there, "the end of the flight")
         self.speed_m_s = 0.0
 
     def close(self):
