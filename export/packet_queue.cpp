@@ -1,20 +1,18 @@
 #include "export/packet_queue.h"
 
+#include <iterator>
 #include <utility>
 
 namespace ols::exports {
 
 void PacketQueue::put(Packet packet) {
-  if (!packet.subject.empty()) {
-    const auto [known, is_new] =
-        number_.try_emplace(packet.subject, taken_ + static_cast<std::uint64_t>(waiting_.size()));
-    if (!is_new) {
-      waiting_[known->second - taken_] = std::move(packet);
-      ++displaced_;
-      return;
-    }
+  if (const auto older = of_.find(packet.subject); older != of_.end()) {
+    waiting_.erase(older->second);
+    ++displaced_;
   }
   waiting_.push_back(std::move(packet));
+  const auto added = std::prev(waiting_.end());
+  if (!added->subject.empty()) of_[added->subject] = added;
   if (waiting_.size() <= most_) return;
   take();
   ++displaced_;
@@ -23,17 +21,15 @@ void PacketQueue::put(Packet packet) {
 std::optional<Packet> PacketQueue::take() {
   if (waiting_.empty()) return std::nullopt;
   Packet packet = std::move(waiting_.front());
+  of_.erase(packet.subject);
   waiting_.pop_front();
-  ++taken_;
-  if (!packet.subject.empty()) number_.erase(packet.subject);
   return packet;
 }
 
 void PacketQueue::clear() {
   displaced_ += waiting_.size();
-  taken_ += waiting_.size();
   waiting_.clear();
-  number_.clear();
+  of_.clear();
 }
 
 }  // namespace ols::exports

@@ -14,14 +14,14 @@ std::vector<std::string> all(PacketQueue& queue) {
   return bytes;
 }
 
-TEST(PacketQueue, TheNewestOfASubjectWinsAndKeepsItsPlace) {
+TEST(PacketQueue, TheNewestOfASubjectWinsAndWaitsBehindWhatIsOlder) {
   PacketQueue queue;
   queue.put({"a", "1"});
   queue.put({"b", "2"});
   queue.put({"a", "3"});
   EXPECT_EQ(queue.size(), 2U);
   EXPECT_EQ(queue.displaced(), 1U);
-  EXPECT_EQ(all(queue), (std::vector<std::string>{"3", "2"}));
+  EXPECT_EQ(all(queue), (std::vector<std::string>{"2", "3"}));
   queue.put({"a", "4"});
   EXPECT_EQ(all(queue), (std::vector<std::string>{"4"}));
 }
@@ -38,7 +38,7 @@ TEST(PacketQueue, TheOldestGivesWay) {
   for (int i = 0; i < 10; ++i) queue.put({std::to_string(i), std::to_string(i)});
   EXPECT_EQ(queue.displaced(), 7U);
   queue.put({"8", "eight"});
-  EXPECT_EQ(all(queue), (std::vector<std::string>{"7", "eight", "9"}));
+  EXPECT_EQ(all(queue), (std::vector<std::string>{"7", "9", "eight"}));
 }
 
 TEST(PacketQueue, WhatIsClearedWasDisplaced) {
