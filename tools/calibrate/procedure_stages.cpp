@@ -180,6 +180,18 @@ std::shared_ptr<ReferenceFeed> references_of(const ProcedureOptions& options,
   return std::make_shared<ReferenceFeed>(gone ? copy : fs::path(options.references), copy);
 }
 
+// Waits for a unit or a camera that does not answer: its line may only be interrupted.
+StationFacts facts_to_begin_with(StationLink& link, const std::string& station) {
+  constexpr double kPatience_s = 5.0, kComesBack_s = 15.0;
+  const double until_s = clock_monotonic_s() + kComesBack_s;
+  for (;;) {
+    const auto status = link.status(kPatience_s);
+    if (!status) throw std::runtime_error("no status of " + station + " on the bus");
+    const StationFacts facts = facts_of(*status);
+    if ((facts.unit_works && facts.camera_works) || clock_monotonic_s() > until_s) return facts;
+  }
+}
+
 }  // namespace
 
 StationFiles read_station(const ProcedureOptions& options) {
@@ -198,12 +210,8 @@ StationFiles read_station(const ProcedureOptions& options) {
 
 void check_station(StationLink& link, const StationFiles& station, const ProcedureOptions& options,
                    Person& person) {
-  constexpr double kPatience_s = 5.0;
-  if (!link.status(kPatience_s)) {
-    throw std::runtime_error("no status of " + station.settings.id + " on the bus");
-  }
+  StationFacts facts = facts_to_begin_with(link, station.settings.id);
   const double gap_s = link.status_gap_s();
-  StationFacts facts = facts_of(*link.status(0.0));
   facts.status_gap_s = gap_s;
   const CameraIntrinsics& camera = station.settings.station.geometry.camera;
   Wanted wanted;

@@ -79,6 +79,22 @@ TEST(FieldInSimulatedTime, ALineThatIsCutForSecondsCostsNoPicture) {
   EXPECT_THAT(tripod.said, testing::Not(HasSubstr("no picture")));
 }
 
+TEST(FieldInSimulatedTime, AUnitThatIsLostForAMomentIsWaitedFor) {
+  SimulatedTripod tripod(SimulatedTripod::scenario());
+  ProcedureOptions brief = field(tripod);
+  brief.rounds = 1;
+  brief.sweep_poses = 0;
+  const double cut_s = tripod.time.now_s();
+  tripod.time.at_each_step([&](double) {
+    sim::StationFaults faults;
+    faults.ptu.line_cut = tripod.time.now_s() < cut_s + 5.0;
+    tripod.station->set_faults(faults);
+  });
+  ASSERT_TRUE(tripod.time.pass(4.0, [&] { return !facts_of(tripod.status).unit_works; }));
+  EXPECT_EQ(tripod.run_until_step("driving", brief), 1);
+  EXPECT_THAT(tripod.said, testing::Not(HasSubstr("does not work")));
+}
+
 TEST(SweepInSimulatedTime, WhatWasInterruptedGoesOnToAnInstrumentAndIsComparedWith) {
   SimulatedTripod tripod(SimulatedTripod::scenario());
   ASSERT_EQ(tripod.run(field(tripod), SimulatedTripod::point_and_accept), 0) << tripod.said;
