@@ -1,6 +1,7 @@
 // Ranges from two panoramas of walls at known places.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
