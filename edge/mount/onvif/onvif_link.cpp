@@ -112,6 +112,27 @@ PtzOptions OnvifLink::read_options(const Profile& profile) {
   return node_options(ask_ptz(get_node(profile.node)).answer);
 }
 
+// The stop may be refused by a camera that is at rest.
+void OnvifLink::order_stop(const std::string& profile) {
+  try {
+    check_done(ask_ptz(stop(profile)).answer, "Stop");
+  } catch (const AnswerError&) {  // whether the camera moves is judged by its positions
+  }
+}
+
+void OnvifLink::stop_first(const Access& earlier) {
+  ptz_url_ = earlier.ptz_url;
+  login_ = earlier.login;
+  clock_ahead_s_ = earlier.clock_ahead_s;
+  try {
+    order_stop(earlier.profile);
+  } catch (const LoginRefused&) {  // the camera wants another login, or its clock was set
+    login_ = Login::kNone;
+  } catch (const HttpError&) {  // or else its PTZ service may have moved to another port
+    if (shown_address(ptz_url_) == shown_address(url_)) throw;
+  }
+}
+
 Learnt OnvifLink::learn(const std::string& wanted) {
   const auto all = read_profiles();
   if (!has_ptz_) throw AnswerError("the camera has no PTZ service");
@@ -121,6 +142,7 @@ Learnt OnvifLink::learn(const std::string& wanted) {
   if (found == all.end() || found->configuration.empty())
     throw AnswerError(wanted.empty() ? "the camera has no profile with PTZ"
                                      : "the camera has no profile " + wanted + " with PTZ");
+  order_stop(found->token);
   return {read_device(), *found, read_options(*found)};
 }
 

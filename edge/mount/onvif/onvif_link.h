@@ -24,6 +24,14 @@ struct Learnt {
   PtzOptions options;
 };
 
+// How a camera was reached and logged in to: enough to order a stop before anything is asked.
+struct Access {
+  enum class Login { kNone, kDigest, kToken };
+  std::string ptz_url, profile;  // address of the PTZ service, token of the profile
+  Login login = Login::kNone;
+  std::optional<double> clock_ahead_s;  // OnvifLink::clock_ahead_s()
+};
+
 // The capabilities of a camera, for a person who sets up a station.
 struct Offer {
   struct Stream {
@@ -41,10 +49,17 @@ class OnvifLink {
   // `url`: the address of the device service.
   OnvifLink(const HttpLink::Config& http, std::string url, Credentials credentials);
 
-  // Reads the camera's clock, the addresses of its services, and a profile with its options.
-  // `profile`: the profile's token; empty for the first one with PTZ. Throws HttpError, AnswerError
-  // or LoginRefused, as all methods do.
+  // Orders a stop as the first request of this connection, by what an earlier connection has found.
+  // If the camera refuses this, learn() orders the stop. Throws HttpError.
+  void stop_first(const Access& earlier);
+  // Reads the camera's clock, the addresses of its services, and a profile. Then orders a stop, and
+  // reads the rest. `profile`: the profile's token; empty for the first one with PTZ. Throws
+  // HttpError, AnswerError or LoginRefused, as the following methods do.
   Learnt learn(const std::string& profile);
+  // The access that this connection has found.
+  Access access(const Profile& profile) const {
+    return {ptz_url_, profile.token, login_, clock_ahead_s_};
+  }
 
   // Reads all profiles with their options and streams. Does not move the camera.
   Offer offer();
@@ -61,13 +76,14 @@ class OnvifLink {
   std::optional<double> clock_ahead_s() const { return clock_ahead_s_; }
 
  private:
-  enum class Login { kNone, kDigest, kToken };
+  using Login = Access::Login;
   Exchange ask(const std::string& url, const Request& request);
   HttpLink::Answer post(const std::string& url, const Request& request);
   void read_clock();
   std::vector<Profile> read_profiles();
   std::string read_device();
   PtzOptions read_options(const Profile& profile);
+  void order_stop(const std::string& profile);
 
   HttpLink http_;
   const std::string url_;

@@ -53,6 +53,16 @@ std::string words_of(const Learnt& learnt, const std::optional<double>& clock_ah
 
 }  // namespace
 
+OnvifSession::~OnvifSession() {
+  if (!owes_stop_) return;
+  try {
+    OnvifLink link({config_.timeout_s, config_.pinned_key}, config_.url,
+                   {config_.user, device::read_password(config_.password_file)});
+    link.stop_first(*access_);
+  } catch (const std::exception&) {  // out of reach: only its time-out can stop it
+  }
+}
+
 // Breaks off the exchange under way: the stop goes over a new connection.
 void OnvifSession::interrupt() {
   const std::lock_guard lock(mutex_);
@@ -77,6 +87,8 @@ void OnvifSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
     serve(open, shared, thread, stop);
   } catch (const Interrupted&) {  // nothing was ordered yet: begins again
   } catch (const LoginRefused&) {
+    access_.reset();
+    owes_stop_ = false;
     {
       const std::lock_guard lock(shared.mutex);
       shared.fault = alarm::ptu_login_refused(device::kLoginPause_s / 60.0);
@@ -94,7 +106,10 @@ void OnvifSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
 
 void OnvifSession::serve(OnvifLink& open, mount::SharedDrive& shared, device::DeviceThread& thread,
                          const std::stop_token& stop) {
+  if (access_) open.stop_first(*access_);
   const Learnt learnt = open.learn(config_.profile);
+  access_ = open.access(learnt.profile);
+  owes_stop_ = true;
   {
     const std::lock_guard lock(shared.mutex);
     shared.words = words_of(learnt, open.clock_ahead_s());
@@ -119,6 +134,7 @@ void OnvifSession::serve(OnvifLink& open, mount::SharedDrive& shared, device::De
   }
   open.http().resume();
   open.ask_ptz(onvif::stop(learnt.profile.token));
+  owes_stop_ = false;
 }
 
 void OnvifSession::carry_out(OnvifLink& open, const Learnt& learnt, const mount::Order& order,

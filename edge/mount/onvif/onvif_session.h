@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "edge/mount/driven/driven_mount.h"
@@ -14,7 +15,11 @@ namespace ols::onvif {
 class OnvifSession : public mount::MountSession {
  public:
   explicit OnvifSession(OnvifConfig config) : config_(std::move(config)) {}
-  // Before it returns, it orders a stop and waits at most timeout_s for the answer.
+  // Orders the stop that run() could not order, because the connection was lost at that time. Waits
+  // at most timeout_s for the answer.
+  ~OnvifSession() override;
+  // The first request of every connection but the first is a stop. Before it returns, it orders a
+  // stop and waits at most timeout_s for the answer.
   void run(mount::SharedDrive& shared, device::DeviceThread& thread,
            const std::stop_token& stop) override;
   void interrupt() override;
@@ -27,7 +32,9 @@ class OnvifSession : public mount::MountSession {
   void publish(OnvifLink* open);
 
   const OnvifConfig config_;
-  std::mutex mutex_;  // guards link_
+  std::optional<Access> access_;  // of the last connection
+  bool owes_stop_ = false;        // the camera was connected and was not ordered to stop since
+  std::mutex mutex_;              // guards link_
   OnvifLink* link_ = nullptr;
 };
 

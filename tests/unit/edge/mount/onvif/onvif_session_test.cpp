@@ -19,6 +19,7 @@
 namespace ols::onvif {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -33,6 +34,7 @@ struct Body {
   std::mutex mutex;
   std::string position = R"(x="0" y="0")";
   bool answers_options = true;  // else with another answer, as ipycam does
+  bool relative_only = false;
 
   std::string answer(const std::string& name, const std::string& request) {
     const std::lock_guard lock(mutex);
@@ -55,8 +57,9 @@ struct Body {
       content =
           "<Profiles token=\"a\"><PTZConfiguration token=\"c\"><NodeToken>n</NodeToken>"
           "</PTZConfiguration></Profiles>";
-    const std::string spaces =
-        space("AbsolutePanTiltPositionSpace") + space("ContinuousPanTiltVelocitySpace");
+    const std::string spaces = relative_only ? space("RelativePanTiltTranslationSpace")
+                                             : space("AbsolutePanTiltPositionSpace") +
+                                                   space("ContinuousPanTiltVelocitySpace");
     if (name == "GetConfigurationOptions") {
       if (!answers_options) return "<GetConfigurationsResponse/>";
       content =
@@ -130,6 +133,95 @@ TEST_F(OnvifMountTest, LogsInStopsFirstGoesToAGoalAndStopsAtTheEnd) {
   }
   EXPECT_EQ(camera.names().back(), "Stop");
   EXPECT_THAT(camera.all_bytes(), Not(HasSubstr(kPassword)));
+}
+
+using Names = std::vector<std::string>;
+
+// The first five requests from `begin` on, without repetitions: libcurl sends a request twice to
+// log in by digest.
+Names five(const Names& all, Names::const_iterator begin) {
+  Names names(begin, all.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  names.resize(5);
+  return names;
+}
+
+Names first_five(const FakeCamera& camera) {
+  const Names all = camera.names();
+  return five(all, all.begin());
+}
+
+Names five_after_status(const FakeCamera& camera) {
+  const Names all = camera.names();
+  return five(all, std::find(all.begin(), all.end(), "GetStatus") + 1);
+}
+
+const FakeCamera::Answer kBreaks{200, std::string(HttpLink::kLongestAnswer, ' ')};
+
+TEST_F(OnvifMountTest, AStopIsOrderedAsSoonAsTheProfileIsKnown) {
+  FakeCamera camera([&](const std::string& name, const FakeCamera::Request& request) {
+    return by_digest(body, name, request);
+  });
+  mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
+  ASSERT_TRUE(eventually([&] { return mount.limits().has_value(); }));
+  EXPECT_THAT(first_five(camera), ElementsAre("GetSystemDateAndTime", "GetCapabilities",
+                                              "GetProfiles", "Stop", "GetDeviceInformation"));
+}
+
+TEST_F(OnvifMountTest, TheFirstRequestOfALaterConnectionIsAStop) {
+  for (const bool digest : {true, false}) {
+    std::atomic<bool> breaks = true;
+    FakeCamera camera([&](const std::string& name, const FakeCamera::Request& request) {
+      if (name == "GetStatus" && breaks.exchange(false)) return kBreaks;
+      if (digest) return by_digest(body, name, request);
+      const bool has_token = request.body().find("Created") != std::string::npos;
+      if (name != "GetSystemDateAndTime" && !has_token) return FakeCamera::Answer{400, kRefused};
+      return FakeCamera::Answer{200, body.answer(name, request.body())};
+    });
+    mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
+    ASSERT_TRUE(eventually([&] { return mount.limits().has_value(); }));
+    EXPECT_THAT(five_after_status(camera), ElementsAre("Stop", "GetSystemDateAndTime",
+                                                       "GetCapabilities", "GetProfiles", "Stop"));
+  }
+}
+
+TEST_F(OnvifMountTest, AFirstStopThatIsRefusedIsOrderedAgainWithALoginOfItsOwn) {
+  std::atomic<bool> breaks = true, refuses = false;
+  FakeCamera camera([&](const std::string& name, const FakeCamera::Request& request) {
+    if (name == "GetStatus" && breaks.exchange(false)) return refuses = true, kBreaks;
+    if (name == "Stop" && refuses.exchange(false)) return FakeCamera::Answer{401, ""};
+    return by_digest(body, name, request);
+  });
+  mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
+  ASSERT_TRUE(eventually([&] { return mount.limits().has_value(); }));
+  EXPECT_THAT(five_after_status(camera), ElementsAre("Stop", "GetSystemDateAndTime",
+                                                     "GetCapabilities", "GetProfiles", "Stop"));
+  EXPECT_EQ(mount.report().counters.count("ptu_logins_refused"), 0u);
+}
+
+TEST_F(OnvifMountTest, ACameraThatIsNoMountIsStoppedAllTheSame) {
+  body.relative_only = true;
+  FakeCamera camera([&](const std::string& name, const FakeCamera::Request& request) {
+    return by_digest(body, name, request);
+  });
+  mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
+  ASSERT_TRUE(eventually([&] { return alarms(mount).find("no moves") != std::string::npos; }));
+  EXPECT_GE(camera.count("Stop"), 1u);
+}
+
+TEST_F(OnvifMountTest, AStationThatEndsWithoutAConnectionOrdersTheStopOnANewOne) {
+  std::atomic<bool> breaks = false;
+  FakeCamera camera([&](const std::string& name, const FakeCamera::Request& request) {
+    if (breaks && name != "Stop") return kBreaks;
+    return by_digest(body, name, request);
+  });
+  {
+    mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
+    ASSERT_TRUE(eventually([&] { return mount.limits().has_value(); }));
+    breaks = true;
+    ASSERT_TRUE(eventually([&] { return !mount.limits().has_value(); }));
+  }
+  EXPECT_EQ(camera.names().back(), "Stop");
 }
 
 TEST_F(OnvifMountTest, ACameraThatAnswersForItsNodeAloneIsAMountToo) {
