@@ -1,7 +1,7 @@
 // ols-bench-onvif: what drives an ONVIF camera against the simulated one, in simulated time, by
 // their SOAP texts: how far it lags behind a target, the errors of its angles and whether they are
-// as stated (by its reports alone, and with its pictures), and when it is at rest after an
-// emergency, a cut link, a station's end.
+// as stated (by its reports alone, and with its pictures), when it is at rest after an emergency, a
+// cut link, a station's end, and which motions in the picture raise an alarm.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,78 +14,17 @@
 #include <string>
 #include <vector>
 
-#include "dev/bench/onvif_pictures.h"
+#include "dev/bench/onvif_alarms.h"
+#include "dev/bench/onvif_rig.h"
 #include "dev/bench/program.h"
-#include "edge/frames/pointing_model.h"
-#include "edge/mount/onvif/onvif_kind.h"
-#include "edge/tracker/ego_motion.h"
 #include "geometry/angles.h"
-#include "sim/onvif/onvif_in_hand.h"
 
 namespace {
 
 using namespace ols;
+using bench::Loop;
 using bench::Scene;
-
-constexpr double kTurn_s = 0.005;
-
-class Loop {
- public:
-  Loop(const sim::OnvifConfig& device, const mount::DriveConfig& drive, std::uint64_t seed)
-      : history_(history_config(drive)),
-        pointing_(station_config(drive)),
-        in_hand_(device, drive, seed, kBegin_s) {}
-
-  using GoalAt = std::function<std::optional<mount::Goal>(double)>;
-  // `each`: after each turn of 5 ms.
-  void run(double seconds, const GoalAt& goal_at, const std::function<void()>& each = {}) {
-    for (const double end_s = now_s_ + seconds; now_s_ < end_s; now_s_ += kTurn_s) {
-      if (station_lives) turn(goal_at);
-      if (each) each();
-    }
-  }
-  double now_s() const { return now_s_; }
-  PanTilt truth(double time_s) const { return in_hand_.angles_at(time_s); }
-  bool turns() const {
-    const PanTilt then = truth(now_s_ - kTurn_s), now = truth(now_s_);
-    return std::abs(now.pan_rad - then.pan_rad) + std::abs(now.tilt_rad - then.tilt_rad) > 0.0;
-  }
-  const mount::AngleHistory& history() const { return history_; }  // of the reports alone
-  station::PointingModel& pointing() { return pointing_; }
-  mount::Drive& drive() { return in_hand_.drive(); }
-  sim::OnvifInHand::Wire& wire() { return in_hand_.wire; }
-  void set_faults(const sim::PtzFaults& faults) { in_hand_.set_faults(faults, now_s_); }
-
-  bool station_lives = true;
-
- private:
-  static constexpr double kBegin_s = 1.0;
-
-  static mount::AngleHistory::Config history_config(const mount::DriveConfig& drive) {
-    onvif::OnvifKind kind;
-    kind.onvif.drive = drive;
-    return kind.traits().angles;
-  }
-  static station::StationConfig station_config(const mount::DriveConfig& drive) {
-    station::StationConfig config;
-    config.geometry = bench::ptz_geometry();
-    config.angles = history_config(drive);
-    return config;
-  }
-  void turn(const GoalAt& goal_at) {
-    drive().set_goal(goal_at ? goal_at(now_s_) : std::nullopt);
-    in_hand_.advance(now_s_);
-    for (const auto& sample : drive().take_samples()) {
-      history_.add(sample);
-      pointing_.add(sample);
-    }
-  }
-
-  mount::AngleHistory history_;
-  station::PointingModel pointing_;
-  sim::OnvifInHand in_hand_;
-  double now_s_ = kBegin_s;
-};
+using bench::Watcher;
 
 // A target that passes at a constant speed.
 Loop::GoalAt passing(double rate_rad_s, double from_s) {
@@ -105,34 +44,6 @@ Loop::GoalAt swinging(double rate_rad_s, double from_s) {
         now_s, {pan_rad, radians(20.0)}, {rate_rad_s * std::cos(phase_rad), 0.0}, now_s + 0.5};
   };
 }
-
-// The camera's pictures, and the motion that the station measures in them.
-class Watcher {
- public:
-  Watcher(Scene scene, std::uint64_t seed)
-      : pictures_(scene, seed),
-        ego_motion_(tracker::TrackerConfig{}, tracker::HomographyFit::kLeastSquares) {}
-
-  void look(Loop& loop, double exposed_s) {
-    camera::Frame frame;
-    frame.gray = pictures_.draw(loop.truth(exposed_s), exposed_s);
-    frame.mid_exposure_s = exposed_s;
-    const auto reduced = tracker::reduce_frame(frame.gray, frame.gray.cols);
-    if (before_s_ == 0.0) {
-      ego_motion_.start(reduced);
-    } else {
-      const auto predicted = loop.pointing().homography(before_s_, exposed_s);
-      const auto seen = ego_motion_.step(reduced, {}, predicted).motion;
-      if (seen) loop.pointing().add(*seen, before_s_, frame);
-    }
-    before_s_ = exposed_s;
-  }
-
- private:
-  bench::OnvifPictures pictures_;
-  tracker::EgoMotionEstimator ego_motion_;
-  double before_s_ = 0.0;
-};
 
 struct Case {
   const char* name;
@@ -307,8 +218,13 @@ int main(int argc, char** argv) {
   double rate_deg_s = 5.0;
   app.add_option("--seeds", seeds, "runs of each row")->check(CLI::Range(1, 1000));
   app.add_option("--rate", rate_deg_s, "of the target [deg/s]")->check(CLI::Range(0.1, 6.0));
+  std::string part;
+  app.add_option("--part", part, "only this part")
+      ->check(CLI::IsMember({"following", "rests", "alarms"}));
   return ols::bench::run_program(app, argc, argv, [&] {
-    say_following(rate_deg_s, seeds);
-    say_rests(seeds);
+    const auto is_wanted = [&part](const char* name) { return part.empty() || part == name; };
+    if (is_wanted("following")) say_following(rate_deg_s, seeds);
+    if (is_wanted("rests")) say_rests(seeds);
+    if (is_wanted("alarms")) bench::say_alarms(seeds);
   });
 }

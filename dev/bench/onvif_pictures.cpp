@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kNoise_gray = 2.0;
 constexpr double kDrift_rad_s = radians(0.4);
+const cv::Rect kBeside(0, 0, 640, 384);  // where a target does not cover the picture
 constexpr double kPasses_s = 20.0, kPassed_s = 25.0, kPassing_px_s = 40.0;
 
 const cv::Mat& slopes() {
@@ -49,12 +50,14 @@ cv::Mat OnvifPictures::draw(const PanTilt& angles, double time_s) {
   } else if (scene_ != Scene::kBlank) {
     draw_landscape(angles, gray);
   }
-  if (scene_ == Scene::kPassing && time_s > kPasses_s && time_s < kPassed_s) {
+  if ((scene_ == Scene::kPassing || scene_ == Scene::kTarget) && time_s > kPasses_s &&
+      time_s < kPassed_s) {
     const double across_px = kPassing_px_s * (time_s - kPasses_s) - 100.0;
     const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1.0, 0.0, across_px, 0.0, 1.0, 0.0);
     cv::Mat moved, covers;
     cv::warpAffine(object_, moved, shift, gray.size());
     cv::warpAffine(cv::Mat(object_.size(), CV_8UC1, cv::Scalar(255)), covers, shift, gray.size());
+    if (scene_ == Scene::kTarget) covers(kBeside).setTo(0);
     moved.copyTo(gray, covers);
   }
   cv::Mat noisy(gray.size(), CV_16SC1);

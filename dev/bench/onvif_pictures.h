@@ -15,6 +15,7 @@ enum class Scene {
   kBlank,    // a sky without any structure
   kDrifts,   // everything in the picture moves, like clouds
   kPassing,  // for some seconds, a moving object covers most of the picture
+  kTarget,   // the same with a fifth of the picture
 };
 
 // The station's geometry: a wide lens of a PTZ camera, 640 x 480.

@@ -46,21 +46,23 @@ void PointingModel::add(const mount::AngleSample& sample) {
 
 // The turn of a calibrated unit is that of an ideal one: within a turn between two pictures, its
 // errors hardly change.
-void PointingModel::add(const tracker::ImageMotion& motion, double from_s,
-                        const camera::Frame& frame) {
+std::optional<mount::SeenTurn> PointingModel::add(const tracker::ImageMotion& motion, double from_s,
+                                                  const camera::Frame& frame) {
   const double to_s = frame.mid_exposure_s;
   const auto zoom = zoom_at(from_s);
   const bool same_zoom = zoom && zoom_rests(from_s) == true && zoom_rests(to_s) == true;
   const auto unit = angles_at(from_s);
-  if (!same_zoom || !unit) return;
+  if (!same_zoom || !unit) return std::nullopt;
   const auto seen = image_turn(geometry_.chain, zoom->camera, unit->angles, motion);
-  if (!seen) return;
-  angles_.add({.from_s = from_s,
-               .to_s = to_s,
-               .row_s = camera::row_time_s(frame, motion.middle_px.y()) - to_s,
-               .stamp_sd_s = frame.stamp_sd_s,
-               .turn = seen->turn,
-               .sd = seen->sd});
+  if (!seen) return std::nullopt;
+  const mount::SeenTurn turn{.from_s = from_s,
+                             .to_s = to_s,
+                             .row_s = camera::row_time_s(frame, motion.middle_px.y()) - to_s,
+                             .stamp_sd_s = frame.stamp_sd_s,
+                             .turn = seen->turn,
+                             .sd = seen->sd};
+  angles_.add(turn);
+  return turn;
 }
 
 void PointingModel::add(const lens::ZoomSample& sample) {

@@ -44,7 +44,9 @@ class PointingModel {
   // Adds a sample; call it in order of time.
   void add(const mount::AngleSample& sample);
   // Adds the motion of the image between an earlier frame, exposed at `from_s`, and `frame`.
-  void add(const tracker::ImageMotion& motion, double from_s, const camera::Frame& frame);
+  // Returns the turn of the mount that causes this motion; nullopt if the motion is not used.
+  std::optional<mount::SeenTurn> add(const tracker::ImageMotion& motion, double from_s,
+                                     const camera::Frame& frame);
   // Adds a zoom position of a motorised lens. geometry() contains the camera at the newest
   // position.
   void add(const lens::ZoomSample& sample);

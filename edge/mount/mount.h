@@ -16,6 +16,7 @@
 #include "edge/mount/goal.h"
 #include "edge/mount/limits.h"
 #include "edge/mount/reference.h"
+#include "edge/mount/seen_path.h"
 
 namespace ols::mount {
 
@@ -32,6 +33,9 @@ class Mount {
   // The angle samples since the last call, oldest first. There are none while the reference is
   // missing or doubted.
   virtual std::vector<AngleSample> take_samples() = 0;
+  // Takes a turn of the camera between two pictures, by the pictures alone. A mount that other
+  // programs can also turn judges by it whether it moves without an order. The others ignore it.
+  virtual void see(const SeenTurn& /*turn*/) {}
   // The range in which the mount can point; nullopt while the mount is not ready.
   virtual std::optional<Limits> limits() const = 0;
 

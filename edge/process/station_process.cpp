@@ -115,6 +115,7 @@ void StationProcess::turn() {
     for (const Sighting& sighting : frames_.sightings(bearing, utime_us, station_.pointing()))
       bus_.send(sighting);
   }
+  for (const mount::SeenTurn& turn : station_.take_seen_turns()) devices_.mount().see(turn);
   devices_.mount().set_goal(goal(output, now.monotonic_s));
   trigger_camera(now.monotonic_s);
   send_requested_frames(now);

@@ -57,11 +57,15 @@ void Station::on_frame(const camera::Frame& frame, double now_s) {
 
 void Station::on_found(detector::Found found) {
   const camera::Frame* frame = detected_.looks_at();
-  if (frame && found.motion) pointing_.add(*found.motion, found.from_s, *frame);
+  if (frame && found.motion) see(*found.motion, found.from_s, *frame);
   const auto new_track_id = [this] { return target_.new_track_id(); };
   for (PixelMeasurement& pixel : detected_.on_found(std::move(found), new_track_id, now_s_)) {
     bearings_.add(std::move(pixel));
   }
+}
+
+void Station::see(const tracker::ImageMotion& motion, double from_s, const camera::Frame& frame) {
+  if (const auto turn = pointing_.add(motion, from_s, frame)) seen_turns_.push_back(*turn);
 }
 
 void Station::use(const StationGeometry& geometry,
@@ -81,7 +85,7 @@ void Station::track(const camera::Frame& frame) {
   const auto before_s = target_.tracked_s();
   const auto output = target_.track(frame, pointing_);
   if (!output) return;
-  if (before_s && output->image_motion) pointing_.add(*output->image_motion, *before_s, frame);
+  if (before_s && output->image_motion) see(*output->image_motion, *before_s, frame);
   // A hidden target may reappear elsewhere; if other stations see it, the slew says where.
   const auto is_at = [&](const std::optional<SlewCommand>& slew) {
     return search_.is_where_slewed(frame, *output, pointing_, slew);

@@ -138,6 +138,9 @@ class Station {
   // above and before step(), so that a stop does not wait for the tracker.
   UnitActions take_actions() { return std::exchange(actions_, {}); }
 
+  // The mount's turns between pictures since the last call, by the pictures alone, for the mount.
+  std::vector<mount::SeenTurn> take_seen_turns() { return std::exchange(seen_turns_, {}); }
+
   // Advances time: ends leases and coasting that have expired, and counts the time in each state.
   StationOutput step(double now_s);
 
@@ -186,6 +189,7 @@ class Station {
   std::optional<SlewCommand> led_to() const;
   bool is_led() const { return mode_.is(StationState::kSlewed) || mode_.is(StationState::kHidden); }
   void track(const camera::Frame& frame);
+  void see(const tracker::ImageMotion& motion, double from_s, const camera::Frame& frame);
   void follow_since(double mid_exposure_s);
   void judge_belief(bool believed, double time_s);
   void drop_unproven(double time_s);
@@ -208,6 +212,7 @@ class Station {
   ManualMotion manual_;
   Watch watch_;
   UnitActions actions_;
+  std::vector<mount::SeenTurn> seen_turns_;
   double believed_s_ = 0.0;      // mid-exposure of the last believed frame
   double last_belief_ = 0.0;     // its belief
   double hidden_since_s_ = 0.0;  // start of the present state kHidden

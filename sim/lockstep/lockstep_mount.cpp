@@ -61,6 +61,7 @@ class OnvifInLockstep : public LockstepMount {
   std::vector<mount::AngleSample> take_samples() override {
     return in_hand_.drive().take_samples();
   }
+  void see(const mount::SeenTurn& turn) override { in_hand_.drive().see(turn); }
   void set_goal(const std::optional<mount::Goal>& goal) override {
     in_hand_.drive().set_goal(goal);
   }
@@ -70,7 +71,13 @@ class OnvifInLockstep : public LockstepMount {
     return in_hand_.drive().limits();
   }
   PanTilt angles_at(double time_s) const override { return in_hand_.angles_at(time_s); }
-  std::map<std::string, double> counters() const override { return {}; }
+  std::map<std::string, double> counters() const override {
+    const mount::Drive::Counters& seen = in_hand_.drive().counters();
+    return {{"ptu_stops_repeated", static_cast<double>(seen.stops_repeated)},
+            {"ptu_unordered_motions", static_cast<double>(seen.unordered_motions)},
+            {"ptu_unordered_in_picture", static_cast<double>(seen.unordered_in_picture)},
+            {"ptu_orders_ignored", static_cast<double>(seen.orders_ignored)}};
+  }
 
  private:
   OnvifInHand in_hand_;

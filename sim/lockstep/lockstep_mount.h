@@ -13,6 +13,7 @@
 #include "edge/mount/goal.h"
 #include "edge/mount/limits.h"
 #include "edge/mount/reference.h"
+#include "edge/mount/seen_path.h"
 #include "sim/world/world.h"
 
 namespace ols::sim {
@@ -22,6 +23,7 @@ class LockstepMount {
   virtual ~LockstepMount() = default;
   virtual void advance(double now_s) = 0;
   virtual std::vector<mount::AngleSample> take_samples() = 0;
+  virtual void see(const mount::SeenTurn& /*turn*/) {}
   virtual void set_goal(const std::optional<mount::Goal>& goal) = 0;
   virtual mount::Reference reference() const = 0;
   virtual std::optional<mount::Limits> limits() const = 0;  // nullopt until the mount is ready

@@ -92,6 +92,7 @@ std::vector<station::Bearing> LockstepStation::advance(double time_s) {
   detect(time_s);
   const double now_s = monotonic_s(time_s);
   station::StationOutput output = station_.step(now_s);
+  for (const mount::SeenTurn& turn : station_.take_seen_turns()) mount_->see(turn);
   mount_->set_goal(output.goal ? output.goal : output.watch);
   return std::move(output.bearings);
 }

@@ -45,6 +45,11 @@ void OnvifInHand::set_faults(const PtzFaults& faults, double now_s) {
   device_.set_faults(faults, std::max(now_s, device_s_));
 }
 
+void OnvifInHand::order_by_another(const onvif::Request& request, double now_s) {
+  device_s_ = std::max(device_s_, now_s);
+  ask(request);
+}
+
 std::string OnvifInHand::ask(const onvif::Request& request) {
   const std::int64_t utime_us = kStart_us + std::llround(1e6 * device_s_);
   onvif::Token token{{device_config_.user, device_config_.password},

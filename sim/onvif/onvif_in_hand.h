@@ -28,6 +28,8 @@ class OnvifInHand {
   const mount::Drive& drive() const { return drive_; }
   PanTilt angles_at(double time_s) const { return device_.angles_at(time_s); }  // the true angles
   void set_faults(const PtzFaults& faults, double now_s);
+  // Another client of the camera sends a request.
+  void order_by_another(const onvif::Request& request, double now_s);
 
   struct Wire {
     double least_s = 0.005, most_s = 0.03;  // delay in each direction

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "conditions/alarms.h"
 #include "geometry/angles.h"
@@ -209,8 +210,11 @@ void Drive::done(const Order& order, double now_s) {
   }
   if (order.act != Act::kVelocity && order.act != Act::kAbsolute) return;
   rests_since_s_.reset();
+  arrived_s_.reset();
   rest_.reset();
   unstopped_s_.reset();
+  picture_rested_ = false;
+  picture_moved_since_s_.reset();
   stops_ = 0;
   ordered_s_ = now_s;
   moved_for_s_ = seen_.empty() ? 0.0 : seen_.back().time_s;
@@ -246,6 +250,7 @@ void Drive::take(const Vector& position, double sent_s, double answered_s) {
   intake_.add(angles, sent_s, answered_s, goes ? config_.servo.max_speed_rad_s : fastest(rate_));
   seen_.push_back({now_s, angles});
   while (now_s - seen_.front().time_s > kWindow_s) seen_.pop_front();
+  if (motion_ == Motion::kAbsolute && !goes && !arrived_s_) arrived_s_ = now_s;
   add_travel(pan_travel_, rate_.pan_rad, angles.pan_rad, now_s);
   add_travel(tilt_travel_, rate_.tilt_rad, angles.tilt_rad, now_s);
   judge_rest(now_s);
@@ -295,12 +300,48 @@ void Drive::judge_rest(double now_s) {
   stop_wanted_ = true;
 }
 
+// The pictures of an own motion come late, and a camera may report a position before it is there.
+// Therefore, only a motion after a rest in the pictures is one without an order.
+void Drive::see(const SeenTurn& turn) {
+  if (seen_.empty()) return;
+  picture_.add(turn, seen_.back().angles.tilt_rad);
+  const auto& still_since_s = motion_ == Motion::kNone ? rests_since_s_ : arrived_s_;
+  if (!still_since_s) return;
+  const auto is = picture_.judge(*still_since_s + kRested_s);
+  const bool moved = std::exchange(picture_moves_, is == PictureMotion::Is::kMoving);
+  if (picture_moves_) move_in_picture(turn.to_s, moved);
+  judge_positions(turn.to_s);
+  if (is != PictureMotion::Is::kAtRest) return;
+  picture_rested_ = true;
+  picture_rest_ = seen_.back().angles;
+}
+
+void Drive::move_in_picture(double time_s, bool moved_before) {
+  if (!picture_rested_ && motion_ == Motion::kAbsolute) return;
+  stop_wanted_ = true;
+  (picture_rested_ ? picture_moved_s_ : unstopped_s_) = time_s;
+  if (!picture_rested_ || moved_before) return;
+  ++counters_.unordered_in_picture;
+  picture_moved_since_s_ = time_s;
+}
+
+// Positions that do not show a motion of the pictures are wrong. They may be late.
+void Drive::judge_positions(double time_s) {
+  if (!picture_moved_since_s_ || time_s - *picture_moved_since_s_ < kOldPosition_s) return;
+  picture_moved_since_s_.reset();
+  if (distance(seen_.back().angles, picture_rest_) < seen_motion_rad()) distrusted_ = true;
+}
+
 std::vector<Alarm> Drive::alarms(double now_s) const {
   std::vector<Alarm> alarms;
   const auto holds = [now_s](const std::optional<double>& seen_s) {
     return seen_s && now_s - *seen_s < kAlarm_s;
   };
-  if (holds(unordered_s_)) alarms.push_back(alarm::ptu_moves_unordered());
+  if (holds(unordered_s_)) {
+    alarms.push_back(alarm::ptu_moves_unordered());
+  } else if (holds(picture_moved_s_)) {
+    alarms.push_back(alarm::ptu_picture_moves_unordered());
+  }
   if (holds(unstopped_s_)) alarms.push_back(alarm::ptu_does_not_stop());
   if (distrusted_ || holds(ignored_s_)) alarms.push_back(alarm::ptu_ignores_orders());
   if (emergency_)

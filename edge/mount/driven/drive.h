@@ -15,6 +15,7 @@
 
 #include "conditions/alarm.h"
 #include "edge/mount/angle_history.h"
+#include "edge/mount/driven/picture_motion.h"
 #include "edge/mount/driven/position_intake.h"
 #include "edge/mount/goal.h"
 #include "edge/mount/limits.h"
@@ -84,6 +85,9 @@ class Drive {
   void done(const Order& order, double now_s);
   void failed(const Order& order, double now_s);
   void take(const Vector& position, double sent_s, double answered_s);
+  // Takes a turn of the camera between two pictures. The pictures may show a motion that the
+  // reported positions do not.
+  void see(const SeenTurn& turn);
 
   // The samples since the last call; none while the reported positions do not follow the orders.
   std::vector<AngleSample> take_samples() {
@@ -101,6 +105,7 @@ class Drive {
 
   struct Counters {
     std::uint64_t stops_repeated = 0, unordered_motions = 0, orders_ignored = 0, emergencies = 0;
+    std::uint64_t unordered_in_picture = 0;  // motions without an order that the pictures showed
   };
   const Counters& counters() const { return counters_; }
 
@@ -128,6 +133,8 @@ class Drive {
   void add_travel(Travel& travel, double rate_rad_s, double angle_rad, double now_s);
   void judge_travel(const Travel& travel, double angle_rad, double now_s);
   void judge_rest(double now_s);
+  void move_in_picture(double time_s, bool moved_before);
+  void judge_positions(double time_s);
 
   DriveConfig config_;
   Limits limits_ = config_.limits;
@@ -147,6 +154,7 @@ class Drive {
   double stop_s_ = -1e9;                 // time of the last stop
   std::optional<double> rests_since_s_;  // time of the first accepted stop since the last motion
   std::optional<PanTilt> rest_;          // position at which the mount came to rest
+  std::optional<double> arrived_s_;      // when it was first reported at the ordered position
 
   std::deque<Seen> seen_;  // positions of the last 0.6 s
   Travel pan_travel_, tilt_travel_;
@@ -157,6 +165,14 @@ class Drive {
   // Times at which it was last observed that the mount moved without an order, did not stop, or
   // ignored an order.
   std::optional<double> unordered_s_, unstopped_s_, ignored_s_;
+
+  PictureMotion picture_;
+  bool picture_moves_ = false;
+  bool picture_rested_ = false;  // the picture was at rest since the last order of a motion
+  PanTilt picture_rest_;         // the reported position at that time
+  // When the pictures showed a motion without an order: the last time, and the first time of a
+  // motion for which the positions are not judged yet.
+  std::optional<double> picture_moved_s_, picture_moved_since_s_;
   Counters counters_;
 };
 

@@ -75,6 +75,11 @@ std::vector<AngleSample> DrivenMount::take_samples() {
   return samples;
 }
 
+void DrivenMount::see(const SeenTurn& turn) {
+  const std::lock_guard lock(shared_.mutex);
+  shared_.drive.see(turn);
+}
+
 std::optional<Limits> DrivenMount::limits() const {
   const std::lock_guard lock(shared_.mutex);
   return ready() ? std::optional(shared_.drive.limits()) : std::nullopt;
@@ -129,6 +134,7 @@ device::DeviceReport DrivenMount::report() const {
                      {"ptu_emergencies", seen.emergencies},
                      {"ptu_stops_repeated", seen.stops_repeated},
                      {"ptu_unordered_motions", seen.unordered_motions},
+                     {"ptu_unordered_in_picture", seen.unordered_in_picture},
                      {"ptu_orders_ignored", seen.orders_ignored},
                      {"ptu_port_failures", thread_.link().failures}};
   report.counters.insert(shared_.counters.begin(), shared_.counters.end());

@@ -65,6 +65,7 @@ class DrivenMount : public Mount {
 
   void set_goal(const std::optional<Goal>& goal) override;
   std::vector<AngleSample> take_samples() override;
+  void see(const SeenTurn& turn) override;
   std::optional<Limits> limits() const override;
 
   void emergency_halt() override;

@@ -73,10 +73,27 @@ struct DriveTest : ::testing::Test {
       if (order.act != Act::kStatus) camera.obey(order, now_s);
       camera.run(trip_s, now_s);
       now_s += trip_s;
-      if (order.act == Act::kStatus) drive->take(position, sent_s, now_s);
+      if (order.act == Act::kStatus) drive->take(reported.value_or(position), sent_s, now_s);
+      look();
       if (order.act != Act::kStatus && order.act != Act::kWait) drive->done(order, now_s);
       for (const AngleSample& sample : drive->take_samples()) newest = sample;
     }
+  }
+  // Ten pictures a second, if there are pictures.
+  void look() {
+    if (!scene_deg || now_s - looked_s < 0.1) return;
+    pictures.push_back({now_s, pan_deg() + scene_deg(now_s)});
+    looked_s = now_s;
+    if (pictures.size() < 2 || pictures.back().first - pictures[1].first < pictures_late_s) return;
+    const double turn_deg = pictures[1].second - pictures[0].second;
+    const double late_s = now_s - pictures[1].first;
+    drive->see({pictures[0].first + late_s,
+                pictures[1].first + late_s,
+                0.0,
+                0.0,
+                {radians(turn_deg), 0.0},
+                {radians(0.01), radians(0.01)}});
+    pictures.pop_front();
   }
   Goal rest(double pan_deg, double tilt_deg) const {
     return {now_s, {radians(pan_deg), radians(tilt_deg)}, {}, now_s + 0.5, false, true};
@@ -94,8 +111,12 @@ struct DriveTest : ::testing::Test {
   Camera camera;
   AngleSample newest;
   double now_s = 100.0;
-  double late_s = 0.0;                          // the positions that it reports
-  std::deque<std::pair<double, double>> track;  // time, x
+  double late_s = 0.0;                             // the positions that it reports
+  std::deque<std::pair<double, double>> track;     // time, x
+  std::optional<Vector> reported;                  // the position that it reports wherever it is
+  std::function<double(double)> scene_deg;         // motion of the scene in the pictures
+  std::deque<std::pair<double, double>> pictures;  // time, pan [deg]
+  double looked_s = 0.0, pictures_late_s = 0.0;
 };
 
 TEST_F(DriveTest, StopsFirstAndOrdersNoMotionWithoutAGoal) {
@@ -174,6 +195,72 @@ TEST_F(DriveTest, AMotionThatNobodyOrderedIsStoppedAndTold) {
   EXPECT_GT(camera.stops, before);
   EXPECT_EQ(camera.velocity.x, 0.0);
   EXPECT_NE(alarms().find("moves without an order"), std::string::npos);
+}
+
+double still(double) { return 0.0; }
+
+TEST_F(DriveTest, AMotionThatOnlyThePicturesShowIsStoppedAndToldAndItsPositionsAreNotBelieved) {
+  for (const bool at_goal : {false, true}) {
+    camera = {};
+    scene_deg = still;
+    if (at_goal) moves.absolute = Space{{-1.0, 1.0}, {-1.0, 1.0}};
+    const auto goal = [&](double) {
+      return at_goal ? std::optional(rest(1.0, 0.0)) : std::nullopt;
+    };
+    start();
+    run(12.0, goal);
+    reported = Vector{camera.x, camera.y};
+    camera.place.reset();
+    camera.velocity = {0.1, 0.0};
+    camera.until_s = kForever_s;
+    run(0.3, goal);
+    EXPECT_EQ(alarms(), "");
+    run(0.7, goal);
+    EXPECT_NE(alarms().find("the picture moves without an order"), std::string::npos) << alarms();
+    EXPECT_EQ(drive->counters().unordered_in_picture, 1u);
+    EXPECT_EQ(camera.velocity.x, 0.0);
+    if (at_goal) continue;
+    camera.velocity = {0.1, 0.0};
+    run(1.5);
+    const double told_s = newest.time_s;
+    run(2.0);
+    EXPECT_EQ(newest.time_s, told_s);
+    reported.reset();
+  }
+}
+
+TEST_F(DriveTest, ACameraThatDoesNotStopIsToldByItsPicturesToo) {
+  camera.ignores_timeout = true;
+  scene_deg = still;
+  start();
+  run(3.0, [&](double) { return rest(100.0, 0.0); });
+  camera.ignores_all = true;
+  reported = Vector{camera.x, camera.y};
+  run(6.0);
+  EXPECT_NE(alarms().find("ordered to stop, still moves"), std::string::npos) << alarms();
+}
+
+TEST_F(DriveTest, WhatIsNoMotionOfTheCameraRaisesNoAlarm) {
+  const auto wind = [](double t) { return 0.9 * std::sin(2.0 * kPi * 0.5 * t); };
+  const auto clouds = [](double t) { return 1.0 * t; };
+  const auto misjudged = [](double t) { return 5.0 * std::floor(t / 3.0); };
+  for (const std::function<double(double)>& scene : {+wind, +clouds, +misjudged}) {
+    scene_deg = scene;
+    start();
+    run(30.0);
+    EXPECT_EQ(alarms(), "");
+  }
+}
+
+TEST_F(DriveTest, AnOwnMotionThatThePicturesShowLateRaisesNoAlarm) {
+  scene_deg = still;
+  pictures_late_s = 1.2;
+  start();
+  for (const double to_deg : {60.0, -60.0, 0.0}) {
+    run(6.0, [&](double) { return rest(to_deg, 0.0); });
+    run(6.0);
+  }
+  EXPECT_EQ(alarms(), "");
 }
 
 TEST_F(DriveTest, ACameraThatRebootsIntoItsHomeIsNoticed) {
