@@ -2,11 +2,13 @@
 simulated PTU on its line, or an ONVIF camera that is found; what a person has changed outlasts the
 next run."""
 
+import numpy as np
 import pytest
 from conftest import BIN, ROOT, finished, wait
 from helpers import Listener
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site
+from PIL import Image
 
 CENTRE = """\
 role = "centre"
@@ -37,8 +39,8 @@ fy_px = 13333.3
 """
 
 
-def run(program, *words, status=0, typed=None):
-    done = finished(BIN / program, *words, input=typed)
+def run(program, *words, status=0, typed=None, folder=None):
+    done = finished(BIN / program, *words, input=typed, cwd=folder)
     assert done.returncode == status, done.stdout + done.stderr
     return done.stdout + done.stderr
 
@@ -46,7 +48,8 @@ def run(program, *words, status=0, typed=None):
 def set_up(folder, answers, status=0):
     file = folder.parent / f"{folder.name}-answers.toml"
     file.write_text(answers)
-    return run("ols-setup", "--root", folder, "--answers", file, status=status)
+    words = ("--root", folder, "--answers", file)
+    return run("ols-setup", *words, status=status, folder=folder.parent)
 
 
 @pytest.fixture
@@ -80,6 +83,12 @@ def ptz(network, tmp_path):
         yield (tmp_path / "lines/alfa.password").read_text().strip()
 
 
+def assert_is_a_picture(file, size):
+    picture = Image.open(file)
+    assert picture.size == size
+    assert np.std(picture) > 5.0
+
+
 def test_an_onvif_camera_is_found_and_becomes_camera_and_mount(tmp_path, centre, ptz):
     tripod = tmp_path / "alfa"
     secret = tripod / "etc/ols/ptz.password"
@@ -99,13 +108,17 @@ def test_an_onvif_camera_is_found_and_becomes_camera_and_mount(tmp_path, centre,
     assert 'url = "rtsp://127.0.0.11:8554/video"' in config.read_text()
     run("ols-station", "--config", config, "--check-config")
     assert ptz not in said + config.read_text()
+    assert f"picture of the camera, 640 x 480: {tmp_path}/alfa-camera.jpg" in said
+    assert_is_a_picture(tmp_path / "alfa-camera.jpg", (640, 480))
 
 
 def test_a_person_picks_an_onvif_camera_and_types_its_password(tmp_path, centre, ptz):
     tripod = tmp_path / "alfa"
     typed = ["station", "lo", "none", centre[2], "alfa", "49.2", "16.6", "310", "45", "0.5", "0.1"]
-    typed += ["900", "900", "2", "admin", "wrong", "admin", ptz]
-    said = run("ols-setup", "--root", tripod, typed="\n".join(typed) + "\n")
+    typed += ["900", "900"]
+    # The camera that is picked first is not the one that is meant.
+    typed += ["1", "2", "2", "admin", "wrong", "admin", ptz, "1"]
+    said = run("ols-setup", "--root", tripod, typed="\n".join(typed) + "\n", folder=tmp_path)
     assert "user or password refused" in said
     assert 'kind = "onvif"' in (tripod / "etc/ols/alfa.toml").read_text()
     secret = tripod / "etc/ols/alfa.camera-password"

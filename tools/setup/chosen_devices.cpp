@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <stdexcept>
 #include <vector>
 
@@ -10,10 +11,12 @@
 #include "base/text/plain_text.h"
 #include "edge/config/device_kinds.h"
 #include "edge/device/password_file.h"
-#include "tools/doctor/probe.h"
+#include "tools/setup/camera_picture.h"
 #include "tools/setup/dialogue.h"
 #include "tools/setup/find_devices.h"
 #include "tools/setup/find_onvif.h"
+#include "tools/setup/find_v4l2.h"
+#include "tools/setup/finders.h"
 #include "tools/setup/onvif_answers.h"
 #include "tools/setup/plan.h"
 
@@ -101,63 +104,155 @@ void take_onvif(const std::string& url, const Host& host, Answers& answers, bool
               words_of(stream).c_str());
 }
 
+constexpr const char* kOther = "another one, or none of these";
+
+// What a person or the answers name in the place of a device that was found.
+Found named_camera(const std::string& said) {
+  if (said.starts_with("http")) return {said, {}, said};
+  if (said.starts_with("/dev/")) {
+    const auto found = find_v4l2({said});
+    if (found.empty()) throw std::runtime_error(said + " is no camera that a station can use");
+    return found.front();
+  }
+  return {said, {{"station.camera.device", toml_text(said)}}};
+}
+
+// A device, or the name of a kind.
+Found named_mount(const std::string& said) {
+  if (said.starts_with("http")) return {said, {}, said};
+  const bool is_kind = std::ranges::any_of(station::mount_kinds(),
+                                           [&](const auto& row) { return said == row.name; });
+  return {said, {{is_kind ? "station.mount.kind" : "station.mount.device", toml_text(said)}}};
+}
+
+struct Wanted {
+  std::string what, key;  // in messages
+  Found (*named)(const std::string& said);
+};
+
+// A person chooses among what was found, or names something else.
+Found ask_for(const std::vector<Found>& found, const Wanted& wanted) {
+  if (found.empty()) return wanted.named(one_of({}, wanted.what, wanted.key, true));
+  std::vector<std::string> words;
+  for (const Found& one : found) words.push_back(one.words);
+  words.emplace_back(kOther);
+  const std::string picked = ask_which(std::cin, std::cout, "Which " + wanted.what + "?", words);
+  const auto at = static_cast<std::size_t>(std::ranges::find(words, picked) - words.begin());
+  if (at < found.size()) return found[at];
+  return wanted.named(ask_text(std::cin, std::cout, "What is to be " + wanted.key + "?"));
+}
+
+// Without a person, the only one of the kind.
+Found only_one(const std::vector<Found>& found, const Wanted& wanted) {
+  std::vector<std::string> words;
+  for (const Found& one : found) words.push_back(one.words);
+  const std::string picked = one_of(words, wanted.what, wanted.key, false);
+  return found[static_cast<std::size_t>(std::ranges::find(words, picked) - words.begin())];
+}
+
+// All finders for a person who has not stated a kind; otherwise that of the kind.
+std::vector<Finder> finders_of(const std::vector<Finder>& all, const std::string& device,
+                               const Values& values, bool asks) {
+  const std::string* kind = find(values, device + ".kind");
+  if (kind == nullptr && asks) return all;
+  std::vector<Finder> chosen;
+  std::ranges::copy_if(all, std::back_inserter(chosen), [&](const Finder& finder) {
+    return kind == nullptr ? finder.kind == all.front().kind : toml_text(finder.kind) == *kind;
+  });
+  return chosen;
+}
+
+Search search_of(const Answers& answers) {
+  Search search;
+  search.lines = answers.serial.empty() ? serial_lines() : answers.serial;
+  const auto number = [&](const char* key, int& value) {
+    if (const std::string* stated = find(answers.values, key)) value = std::stoi(*stated);
+  };
+  number("station.mount.port", search.indi_port);
+  number("station.mount.address", search.pelco_address);
+  if (const std::string* host = find(answers.values, "station.mount.host"))
+    search.indi_host = text_in(*host).value_or("");
+  return search;
+}
+
+void take(const Found& found, const Host& host, Answers& answers, bool asks) {
+  if (!found.onvif.empty()) return take_onvif(found.onvif, host, answers, asks);
+  for (const auto& [key, value] : found.values) {
+    if (find(answers.values, key) == nullptr) answers.values.emplace_back(key, value);
+  }
+}
+
 // The answers want an ONVIF camera: the stated one, or the one that is found.
 void take_wanted_onvif(const Host& host, Answers& answers, bool asks) {
   if (const std::string* url = find(answers.values, "station.mount.url"))
     return take_onvif(text_in(*url).value_or(""), host, answers, asks);
-  const auto found = find_onvif();
-  std::vector<std::string> words;
-  for (const auto& camera : found) words.push_back(words_of(camera));
-  const std::string picked = one_of(words, "ONVIF camera", "station.mount.url", asks);
-  const auto at = std::ranges::find(words, picked);
-  take_onvif(at == words.end() ? picked : found[at - words.begin()].url, host, answers, asks);
+  const Wanted wanted{"ONVIF camera", "station.mount.url", [](const std::string& said) {
+                        return Found{said, {}, said};
+                      }};
+  std::vector<Found> found;
+  for (const auto& camera : find_onvif()) found.push_back({words_of(camera), {}, camera.url});
+  take(asks ? ask_for(found, wanted) : only_one(found, wanted), host, answers, asks);
 }
 
-// GigE Vision cameras and, where a person chooses, those of ONVIF.
 void find_camera(const Host& host, Answers& answers, bool asks) {
-  std::vector<std::string> cameras;
-  for (const auto& camera : doctor::cameras_that_answer()) cameras.push_back(camera.id);
-  const std::size_t own = cameras.size();
-  std::vector<onvif::FoundCamera> found;
-  if (asks) found = find_onvif();
-  for (const auto& camera : found) cameras.push_back(words_of(camera));
-  const std::string key =
+  const auto finders = finders_of(camera_finders(), "station.camera", answers.values, asks);
+  const bool all = finders.size() > 1;
+  const Wanted wanted{
+      all ? "camera" : finders.front().called,
       asks ? "station.camera.device, or the address of an ONVIF camera's device service"
-           : "station.camera.device, or kind = \"rtsp\" for one by ONVIF";
-  const std::string camera = one_of(cameras, "camera", key, asks);
-  const auto at = static_cast<std::size_t>(std::ranges::find(cameras, camera) - cameras.begin());
-  if (at >= own && at < cameras.size()) return take_onvif(found[at - own].url, host, answers, asks);
-  if (camera.starts_with("http")) return take_onvif(camera, host, answers, asks);
-  add(answers.values, "station.camera.device", camera);
-  std::printf("camera: %s\n", camera.c_str());
+           : "station.camera.device, or kind = \"rtsp\" for one by ONVIF, or \"v4l2\"",
+      named_camera};
+  const auto found = find_all(finders, search_of(answers));
+  const Found one = asks ? ask_for(found, wanted) : only_one(found, wanted);
+  take(one, host, answers, asks);
+  if (one.onvif.empty()) std::printf("camera: %s\n", one.words.c_str());
 }
 
-// A device, or the name of a kind that has none.
-void take_mount(const std::string& said, Answers& answers) {
-  const bool is_kind = std::ranges::any_of(station::mount_kinds(),
-                                           [&](const auto& row) { return said == row.name; });
-  add(answers.values, is_kind ? "station.mount.kind" : "station.mount.device", said);
+// Shows the picture of a camera that was found in this run, and lets a person choose again.
+void choose_camera(const Host& host, Answers& answers, bool asks) {
+  const bool wants = wants_onvif(answers.values);
+  if (!wants && has_camera(answers.values)) return;
+  const Values before = answers.values;
+  for (;;) {
+    if (wants) take_wanted_onvif(host, answers, asks);
+    if (has_camera(before)) return;
+    if (!has_camera(answers.values)) find_camera(host, answers, asks);
+    show_picture(host, answers.station, answers.values);
+    if (!asks) return;
+    const std::vector<std::string> replies{"yes", "no, choose again"};
+    if (ask_which(std::cin, std::cout, "Is this the camera?", replies) == replies.front()) return;
+    answers.values = before;
+  }
+}
+
+void choose_mount(const Host& host, Answers& answers, bool asks) {
+  while (!has_mount(answers.values)) {
+    const auto finders = finders_of(mount_finders(), "station.mount", answers.values, asks);
+    const bool all = finders.size() > 1;
+    const Wanted wanted{all ? "mount" : finders.front().called,
+                        "station.mount.device, or \"fixed\"", named_mount};
+    const auto found = find_all(finders, search_of(answers));
+    const Found one = asks ? ask_for(found, wanted) : only_one(found, wanted);
+    take(one, host, answers, asks);
+    std::printf("mount: %s\n", one.words.c_str());
+    const std::string* kind = value_of(one, "station.mount.kind");
+    if (asks && kind != nullptr && *kind == toml_text("indi")) {
+      add(answers.values, "station.mount.axes",
+          ask_which(std::cin, std::cout, "How do its axes stand?", {"equatorial", "altazimuth"}));
+    }
+  }
 }
 
 }  // namespace
 
 void choose_devices(const Host& host, Answers& answers, bool asks) {
-  if (wants_onvif(answers.values)) take_wanted_onvif(host, answers, asks);
-  if (!has_camera(answers.values)) find_camera(host, answers, asks);
-  std::vector<std::string> lines = answers.serial.empty() ? serial_lines() : answers.serial;
-  if (!has_mount(answers.values)) {
-    std::vector<std::string> units;
-    for (const auto& unit : find_ptus(lines)) {
-      units.push_back(unit.device);
-      std::printf("PTU: %s on %s at %d baud\n", unit.version.c_str(), unit.device.c_str(),
-                  unit.baud);
-    }
-    take_mount(one_of(units, "PTU", "station.mount.device, or \"fixed\"", asks), answers);
-  }
+  choose_camera(host, answers, asks);
+  choose_mount(host, answers, asks);
+  if (!answers.gnss.empty()) return;
+  std::vector<std::string> lines = search_of(answers).lines;
   std::erase_if(lines, [&](const std::string& line) {
     return mount_device(answers.values) == toml_text(line);
   });
-  if (!answers.gnss.empty()) return;
   const auto receivers = find_receivers(lines);
   if (receivers.empty()) return;
   answers.gnss = one_of(receivers, "GNSS receiver", "gnss", asks);

@@ -14,16 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void add_from(const std::string& folder, const std::string& beginning,
-              std::vector<std::string>& lines) {
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(folder, missing)) {
-    const std::string name = entry.path().filename();
-    if (name.starts_with(beginning)) lines.push_back(entry.path());
-  }
-  std::ranges::sort(lines);
-}
-
 std::string heard_on(const std::string& device, int baud) {
   constexpr double kListen_s = 1.3;  // receivers speak once a second
   serial::SerialPort port(device, baud);
@@ -48,14 +38,24 @@ bool is_receiver(const std::string& device) {
 
 }  // namespace
 
-std::vector<std::string> serial_lines() {
-  std::vector<std::string> lines;
-  add_from("/dev/ols", "", lines);
-  if (lines.empty()) add_from("/dev/serial/by-id", "", lines);
-  if (lines.empty()) {
-    add_from("/dev", "ttyUSB", lines);
-    add_from("/dev", "ttyACM", lines);
+std::vector<std::string> devices_in(const std::string& folder, const std::string& beginning) {
+  std::vector<std::string> devices;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing)) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(beginning)) devices.push_back(entry.path());
   }
+  std::ranges::sort(devices);
+  return devices;
+}
+
+std::vector<std::string> serial_lines() {
+  for (const char* stable : {"/dev/ols", "/dev/serial/by-id"}) {
+    auto lines = devices_in(stable, "");
+    if (!lines.empty()) return lines;
+  }
+  auto lines = devices_in("/dev", "ttyUSB");
+  for (const std::string& line : devices_in("/dev", "ttyACM")) lines.push_back(line);
   return lines;
 }
 

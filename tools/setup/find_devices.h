@@ -7,6 +7,9 @@
 
 namespace ols::setup {
 
+// The entries of a folder whose names have this beginning, sorted; empty: there is no such folder.
+std::vector<std::string> devices_in(const std::string& folder, const std::string& beginning);
+
 // The serial adapters, by stable names where there are any (/dev/ols/*, /dev/serial/by-id/*),
 // otherwise /dev/ttyUSB* and ttyACM*.
 std::vector<std::string> serial_lines();

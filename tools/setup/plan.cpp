@@ -21,21 +21,24 @@ PlannedFile gpsd_file(const std::string& device) {
           "DEVICES=\"\"\n"};
 }
 
-// Another kind than the first one, whose device has to be found.
-bool is_other(const Values& values, const std::string& key, const auto& kinds) {
-  const std::string* stated = find(values, key);
-  return stated != nullptr && *stated != toml_text(kinds.front().name);
+// The kind of the camera or the mount, which the section may leave to the default.
+std::string kind_of(const Values& values, const std::string& device, const auto& kinds) {
+  const std::string* stated = find(values, device + ".kind");
+  return stated == nullptr ? kinds.front().name : text_in(*stated).value_or("");
 }
 
-// A kind that is found by its address, which is not stated.
+// The key with which a kind states where its device is; empty: it has none.
+std::string address_key(const std::string& kind) {
+  if (kind == "fixed") return {};
+  return kind == "rtsp" || kind == "onvif" ? "url" : "device";
+}
+
+// A kind that is found by ONVIF, without its address.
 bool lacks_url(const Values& values, const std::string& device, const std::string& kind) {
   const std::string* stated = find(values, device + ".kind");
   return stated != nullptr && *stated == toml_text(kind) &&
          find(values, device + ".url") == nullptr;
 }
-
-bool lacks_stream(const Values& values) { return lacks_url(values, "station.camera", "rtsp"); }
-bool lacks_service(const Values& values) { return lacks_url(values, "station.mount", "onvif"); }
 
 PlannedFile time_file(const Answers& answers) {
   return {"/etc/chrony/conf.d/ols-site.conf", chrony_file(answers.neighbours), false};
@@ -55,17 +58,19 @@ std::string mount_device(const Values& values) {
 }
 
 bool has_camera(const Values& values) {
-  return find(values, "station.camera.device") != nullptr ||
-         (is_other(values, "station.camera.kind", station::camera_kinds()) &&
-          !lacks_stream(values));
+  const std::string key = address_key(kind_of(values, "station.camera", station::camera_kinds()));
+  return find(values, "station.camera." + key) != nullptr;
 }
 
 bool has_mount(const Values& values) {
-  return !mount_device(values).empty() ||
-         (is_other(values, "station.mount.kind", station::mount_kinds()) && !lacks_service(values));
+  const std::string key = address_key(kind_of(values, "station.mount", station::mount_kinds()));
+  return key.empty() || (key == "device" ? !mount_device(values).empty()
+                                         : find(values, "station.mount." + key) != nullptr);
 }
 
-bool wants_onvif(const Values& values) { return lacks_stream(values) || lacks_service(values); }
+bool wants_onvif(const Values& values) {
+  return lacks_url(values, "station.camera", "rtsp") || lacks_url(values, "station.mount", "onvif");
+}
 
 Plan plan_station(const Answers& answers) {
   Plan plan;

@@ -33,8 +33,7 @@ Plan plan_centre(const Answers& answers, Installed installed);
 // The mount's device in the answers, as TOML, from the section [mount] or [ptu]; empty: there is
 // none.
 std::string mount_device(const Values& values);
-// Whether the answers name the device. If not, ols-setup searches for it; it can find GigE Vision
-// and ONVIF cameras, and FLIR's units.
+// Whether the answers name the device. If not, ols-setup searches for it (finders.h).
 bool has_camera(const Values& values);
 bool has_mount(const Values& values);
 // Whether the answers want an ONVIF camera without its address: kind = "rtsp" or "onvif" without

@@ -21,7 +21,8 @@ void check(ConfigTable& table, const IndiConfig& c) {
   const mount::Limits& limits = c.drive.limits;
   if (limits.pan_max_rad - limits.pan_min_rad > 2.0 * kPi)
     throw table.error("pan_max_deg", "the travel of pan is at most a full turn");
-  if (c.device.empty()) throw table.error("device", "must name the telescope");
+  if (table.has("device") && c.device.empty())
+    throw table.error("device", "must name the telescope");
 }
 
 // The library would wait for a name to be resolved for ever.

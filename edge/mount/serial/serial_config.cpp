@@ -49,7 +49,7 @@ void check(ConfigTable& table, const SerialConfig& c) {
   mount::check_travel(table, d.limits);
   for (const auto& [key, value] :
        {std::pair{"pan_gain_deg", d.pan.per_unit_rad}, {"tilt_gain_deg", d.tilt.per_unit_rad}})
-    if (value == 0.0) throw table.error(key, "must not be 0");
+    if (table.has(key) && value == 0.0) throw table.error(key, "must not be 0");
 }
 
 }  // namespace

@@ -46,6 +46,17 @@ TEST(Plan, AMountNeedsADeviceOrAKindThatHasNone) {
   EXPECT_TRUE(has_camera({{"station.camera.device", "\"c\""}}));
 }
 
+TEST(Plan, AKindWithoutItsDeviceIsAnAnswerButHasToBeFound) {
+  for (const char* kind : {"visca", "pelco-d", "indi"}) {
+    const Answers answers = read_answers(
+        station_answers("[station.mount]\nkind = \"" + std::string(kind) + "\"\n"), "a");
+    EXPECT_FALSE(has_mount(answers.values)) << kind;
+  }
+  const Answers camera = read_answers(station_answers("[station.camera]\nkind = \"v4l2\"\n"), "a");
+  EXPECT_FALSE(has_camera(camera.values));
+  EXPECT_FALSE(wants_onvif(camera.values));
+}
+
 TEST(Plan, AStationWithoutMotionSaysSo) {
   Answers answers = read_answers(station_answers(), "a");
   add(answers.values, "station.camera.device", "Maker-1");

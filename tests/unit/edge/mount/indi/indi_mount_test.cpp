@@ -1,8 +1,5 @@
 // The mount against INDI's own telescope simulator.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
@@ -15,46 +12,11 @@
 #include "edge/mount/indi/indi_kind.h"
 #include "edge/mount/indi/indi_link.h"
 #include "geometry/angles.h"
+#include "tests/unit/edge/mount/indi/indi_server.h"
 #include "tests/unit/eventually.h"
-#include "tests/unit/temporary_folder.h"
 
 namespace ols::indi {
 namespace {
-
-constexpr const char* kTelescope = "Telescope Simulator";
-
-// indiserver with the simulator; both end with it.
-class Server {
- public:
-  explicit Server(int port) : port_(port) {
-    ::setenv("HOME", (folder_.path()).c_str(), 1);  // its settings
-    start();
-  }
-  ~Server() { end(); }
-  void end() {
-    if (process_ <= 0) return;
-    ::kill(process_, SIGTERM);
-    ::waitpid(process_, nullptr, 0);
-    process_ = 0;
-  }
-  void start() {
-    const std::string port = std::to_string(port_), pipe = folder_ / "pipe";
-    const char* arguments[] = {
-        "indiserver", "-p", port.c_str(), "-u", pipe.c_str(), "indi_simulator_telescope", nullptr};
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    if (::posix_spawnp(&process_, arguments[0], &files, nullptr,
-                       const_cast<char* const*>(arguments), environ) != 0)
-      throw std::runtime_error("no indiserver: Debian's package indi-bin");
-    posix_spawn_file_actions_destroy(&files);
-  }
-
- private:
-  int port_;
-  TemporaryFolder folder_;
-  pid_t process_ = 0;
-};
 
 IndiConfig config_of(int port) {
   IndiConfig config;
