@@ -4,6 +4,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "base/text/plain_text.h"
+
 namespace ols::camera {
 namespace {
 
@@ -56,9 +58,9 @@ std::optional<GstPicture> gst_picture(GstSample* sample, bool with_colour) {
   return picture;
 }
 
-std::string printable(std::string text) {
-  std::erase_if(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-  return text.substr(0, 120);
+std::string printable(const std::string& text) {
+  constexpr std::size_t kMostBytes = 120;
+  return plain_text(text.substr(0, kMostBytes));
 }
 
 }  // namespace ols::camera

@@ -25,7 +25,7 @@ struct GstPicture {
 // Copies the picture out of a sample. nullopt if the sample has no picture in memory.
 std::optional<GstPicture> gst_picture(GstSample* sample, bool with_colour);
 
-// Makes a device's text printable in one line: without control characters, at most 120 bytes.
-std::string printable(std::string text);
+// The first 120 bytes of a device's text, made printable in one line (base/text/plain_text.h).
+std::string printable(const std::string& text);
 
 }  // namespace ols::camera

@@ -6,8 +6,21 @@ namespace ols::camera {
 namespace {
 
 constexpr std::size_t kMost = 256;  // pictures between network and decoder
+// 73 years: differences to times of UTC stay within 64 bits, whatever stamps a camera sends.
+constexpr double kLongest_ns = 0x1p61;
 
 }  // namespace
+
+std::optional<RtpPacket> rtp_packet(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kBytes = 8;
+  if (bytes.size() < kBytes) return std::nullopt;
+  RtpPacket packet;
+  packet.sequence = static_cast<std::uint16_t>(bytes[2] << 8 | bytes[3]);
+  packet.last = (bytes[1] & 0x80U) != 0;
+  packet.stamp = std::uint32_t{bytes[4]} << 24 | std::uint32_t{bytes[5]} << 16 |
+                 std::uint32_t{bytes[6]} << 8 | bytes[7];
+  return packet;
+}
 
 RtpPictures::Entry* RtpPictures::find(std::uint64_t pts_ns) {
   const auto entry = std::ranges::find(entries_, pts_ns, &Entry::pts_ns);
@@ -33,12 +46,12 @@ void RtpPictures::add(const RtpPacket& packet) {
   }
   Entry entry;
   entry.pts_ns = packet.pts_ns;
-  entry.picture = {
-      .number = ++number_,
-      .device_ns = static_cast<std::int64_t>(1e9 / clock_hz_ * static_cast<double>(ticks_)),
-      .arrival_s = packet.arrival_s,
-      .report_utc_ns = packet.report_utc_ns,
-      .broken = false};
+  entry.picture = {.number = ++number_,
+                   .device_ns = static_cast<std::int64_t>(std::clamp(
+                       1e9 / clock_hz_ * static_cast<double>(ticks_), -kLongest_ns, kLongest_ns)),
+                   .arrival_s = packet.arrival_s,
+                   .report_utc_ns = packet.report_utc_ns,
+                   .broken = false};
   entry.lost_here = lost;
   entries_.push_back(entry);
   if (entries_.size() > kMost) entries_.pop_front();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 
 namespace ols::camera {
 
@@ -21,9 +22,13 @@ struct RtpPacket {
   std::optional<std::int64_t> report_utc_ns;
 };
 
+// Reads sequence, stamp and marker from the first bytes of a packet (RFC 3550, section 5.1);
+// nullopt if there are less than eight. Extensions and sources come after these.
+std::optional<RtpPacket> rtp_packet(std::span<const std::uint8_t> bytes);
+
 struct RtpPicture {
   std::uint64_t number = 0;    // counts the stream's pictures, from 1
-  std::int64_t device_ns = 0;  // the RTP stamp, extended beyond 32 bits
+  std::int64_t device_ns = 0;  // the RTP stamp, extended beyond 32 bits; at most 2^61
   double arrival_s = 0.0;      // arrival of the first packet
   std::optional<std::int64_t> report_utc_ns;
   bool broken = false;

@@ -11,6 +11,7 @@
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
 #include "edge/camera/gstreamer/gst_picture.h"
+#include "edge/camera/rtsp/rtsp_offer.h"
 
 namespace ols::camera {
 namespace {
@@ -19,33 +20,6 @@ namespace {
 constexpr guint kReorder_ms = 50;
 constexpr guint64 kTimeout_us = 5'000'000;
 constexpr std::int64_t kNtpToUtc_ns = 2'208'988'800LL * 1'000'000'000LL;
-
-struct Codec {
-  std::string_view rtp_name;
-  const char* description;  // of the elements from packets to pictures
-};
-
-// One thread, because a picture per thread would wait in the decoder.
-constexpr std::array<Codec, 3> kCodecs{{
-    {"H264",
-     "rtph264depay ! video/x-h264,alignment=au ! h264parse ! avdec_h264 name=decoder "
-     "max-threads=1"},
-    {"H265",
-     "rtph265depay ! video/x-h265,alignment=au ! h265parse ! avdec_h265 name=decoder "
-     "max-threads=1"},
-    {"JPEG", "rtpjpegdepay ! jpegdec name=decoder"},
-}};
-
-std::string value_of(const GstCaps* caps, const char* field) {
-  const char* text = gst_structure_get_string(gst_caps_get_structure(caps, 0), field);
-  return text == nullptr ? "" : text;
-}
-
-const Codec* codec_of(const GstCaps* caps) {
-  const std::string name = value_of(caps, "encoding-name");
-  const auto codec = std::ranges::find(kCodecs, std::string_view(name), &Codec::rtp_name);
-  return codec == kCodecs.end() ? nullptr : &*codec;
-}
 
 struct Caps {
   explicit Caps(const char* text) : caps(gst_caps_from_string(text)) {}
@@ -76,7 +50,7 @@ struct RtspStream::Impl {
   GstElement* sink_ = nullptr;  // in the pipeline
 
   mutable std::mutex mutex_;  // guards all below: GStreamer's threads write them
-  const Codec* codec_ = nullptr;
+  const RtspCodec* codec_ = nullptr;
   std::string trouble_;  // there is nothing to decode
   std::optional<RtpPictures> pictures_;
   bool linked_ = false;
@@ -129,9 +103,10 @@ void RtspStream::Impl::add_source(const RtspConfig& config, const std::string& p
 // The first video stream; no sound, no metadata.
 bool RtspStream::Impl::choose(const GstCaps* caps) {
   const std::lock_guard lock(mutex_);
-  if (codec_ != nullptr || value_of(caps, "media") != "video") return false;
-  codec_ = codec_of(caps);
-  trouble_ = codec_ == nullptr ? "codec " + printable(value_of(caps, "encoding-name")) : "";
+  const RtspOffer offer = rtsp_offer(caps);
+  if (codec_ != nullptr || !offer.is_video) return false;
+  codec_ = offer.codec;
+  trouble_ = codec_ == nullptr ? "codec " + offer.format : "";
   return codec_ != nullptr;
 }
 
@@ -139,14 +114,11 @@ void RtspStream::Impl::link(GstPad* pad) {
   const std::lock_guard lock(mutex_);
   GstCaps* caps = gst_pad_get_current_caps(pad);
   if (caps == nullptr) caps = gst_pad_query_caps(pad, nullptr);
-  gint clock_hz = 0;
-  const bool usable =
-      !linked_ && codec_ != nullptr && codec_ == codec_of(caps) &&
-      gst_structure_get_int(gst_caps_get_structure(caps, 0), "clock-rate", &clock_hz) != FALSE &&
-      clock_hz > 0;
+  const RtspOffer offer = rtsp_offer(caps);
   gst_caps_unref(caps);
+  const bool usable = !linked_ && codec_ != nullptr && codec_ == offer.codec && offer.clock_hz > 0;
   if (!usable) return;
-  const std::string description = std::string(codec_->description) + " ! videoconvert n-threads=1";
+  const std::string description = std::string(codec_->pipeline) + " ! videoconvert n-threads=1";
   GError* error = nullptr;
   GstElement* bin = gst_parse_bin_from_description(description.c_str(), TRUE, &error);
   if (error != nullptr) {
@@ -155,7 +127,7 @@ void RtspStream::Impl::link(GstPad* pad) {
   }
   if (bin == nullptr) return;
   linked_ = true;
-  pictures_.emplace(clock_hz);
+  pictures_.emplace(offer.clock_hz);
   GstElement* decoder = gst_bin_get_by_name(GST_BIN(bin), "decoder");
   GstPad* encoded = gst_element_get_static_pad(decoder, "sink");
   gst_pad_add_probe(
@@ -185,11 +157,7 @@ void RtspStream::Impl::link(GstPad* pad) {
 void RtspStream::Impl::note_packet(GstBuffer* buffer) {
   std::array<std::uint8_t, 8> head{};
   if (gst_buffer_extract(buffer, 0, head.data(), head.size()) != head.size()) return;
-  RtpPacket packet;
-  packet.sequence = static_cast<std::uint16_t>(head[2] << 8 | head[3]);
-  packet.last = (head[1] & 0x80U) != 0;
-  packet.stamp = std::uint32_t{head[4]} << 24 | std::uint32_t{head[5]} << 16 |
-                 std::uint32_t{head[6]} << 8 | head[7];
+  RtpPacket packet = *rtp_packet(head);
   packet.pts_ns = GST_BUFFER_PTS(buffer);
   packet.arrival_s = clock_monotonic_s();
   const auto* report = gst_buffer_get_reference_timestamp_meta(buffer, ntp_.caps);

@@ -4,6 +4,7 @@
 #include "edge/camera/picture_change.h"
 #include "edge/camera/retry_pause.h"
 #include "edge/camera/rtsp/rtp_pictures.h"
+#include "edge/camera/rtsp/rtsp_codec.h"
 #include "edge/camera/rtsp/rtsp_config.h"
 #include "tests/unit/error_text.h"
 
@@ -63,6 +64,35 @@ TEST(RtpPictures, CountThroughTheEndsOfBothCounters) {
   EXPECT_FALSE(second->broken);
   EXPECT_EQ(pictures.lost_packets(), 0U);
   EXPECT_FALSE(pictures.take(4711));
+}
+
+TEST(RtpPictures, StampsThatLeapStayWithinWhatTimesCanHold) {
+  RtpPictures pictures(1000.0);
+  std::int64_t last_ns = 0;
+  for (std::uint16_t i = 0; i < 5000; ++i) {
+    RtpPacket leaps = packet(i, 0x7fffffffU * i);
+    leaps.pts_ns = i;
+    pictures.add(leaps);
+    last_ns = pictures.take(i)->device_ns;
+  }
+  EXPECT_EQ(last_ns, std::int64_t{1} << 61);
+}
+
+TEST(RtpPacket, ItsHeadIsReadWhateverFollows) {
+  const std::vector<std::uint8_t> bytes{0x90, 0xe0, 0x12, 0x34, 0x89, 0xab, 0xcd, 0xef, 0xff};
+  const auto read = rtp_packet(bytes);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->sequence, 0x1234);
+  EXPECT_EQ(read->stamp, 0x89abcdefU);
+  EXPECT_TRUE(read->last);
+  EXPECT_FALSE(rtp_packet(std::span(bytes).first(7)));
+}
+
+TEST(RtspCodec, AFormatIsKnownAndARateIsPossible) {
+  EXPECT_NE(rtsp_codec("H265"), nullptr);
+  EXPECT_EQ(rtsp_codec("VP8"), nullptr);
+  EXPECT_TRUE(is_rtp_clock(90'000));
+  for (const int hz : {-90'000, 0, 1, 2'000'000'000}) EXPECT_FALSE(is_rtp_clock(hz)) << hz;
 }
 
 TEST(RtpPictures, ALostPacketBreaksAllPicturesUntilAWholeOne) {
