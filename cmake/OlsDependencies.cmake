@@ -11,7 +11,7 @@ pkg_check_modules(glib REQUIRED IMPORTED_TARGET glib-2.0)
 pkg_check_modules(aravis REQUIRED IMPORTED_TARGET aravis-0.8)
 pkg_check_modules(gstreamer_server REQUIRED IMPORTED_TARGET gio-2.0 gstreamer-rtp-1.0 gstreamer-rtsp-server-1.0
                   gstreamer-sdp-1.0)
-pkg_check_modules(gstreamer REQUIRED IMPORTED_TARGET gstreamer-app-1.0 gstreamer-video-1.0)
+pkg_check_modules(gstreamer REQUIRED IMPORTED_TARGET gio-2.0 gstreamer-app-1.0 gstreamer-video-1.0)
 pkg_check_modules(libgpiod REQUIRED IMPORTED_TARGET libgpiod)
 pkg_check_modules(libgps REQUIRED IMPORTED_TARGET libgps)
 pkg_check_modules(libsystemd REQUIRED IMPORTED_TARGET libsystemd)

@@ -34,6 +34,11 @@ std::string launch_line(const RtspServerConfig& c) {
   if (x264 != nullptr) gst_object_unref(x264);
   if (c.codec == VideoCodec::kJpeg || x264 == nullptr)
     return source + "jpegenc quality=85 ! rtpjpegpay name=pay0 timestamp-offset=0 )";
+  if (c.codec == VideoCodec::kH265)
+    return source + "x265enc tune=zerolatency speed-preset=ultrafast key-int-max=" +
+           std::to_string(c.key_every) + " bitrate=" + std::to_string(c.kbit_s) +
+           " option-string=pools=none:frame-threads=1 ! rtph265pay name=pay0 config-interval=-1 "
+           "timestamp-offset=0 )";
   return source + "x264enc tune=zerolatency speed-preset=ultrafast threads=1 key-int-max=" +
          std::to_string(c.key_every) + " bitrate=" + std::to_string(c.kbit_s) +
          " ! rtph264pay name=pay0 config-interval=-1 timestamp-offset=0 )";
@@ -64,6 +69,7 @@ struct RtspServer::Impl {
   Impl(const RtspServerConfig& config, std::function<void(const Exposure&, cv::Mat&)> draw);
   ~Impl();
 
+  void be_secure();
   void require_login(GstRTSPMediaFactory* factory);
   void listen();
   void hang_up();
@@ -117,6 +123,7 @@ RtspServer::Impl::Impl(const RtspServerConfig& config,
   GstRTSPMediaFactory* factory = gst_rtsp_media_factory_new();
   gst_rtsp_media_factory_set_launch(factory, launch_line(config).c_str());
   gst_rtsp_media_factory_set_shared(factory, TRUE);
+  if (!config.certificate.empty()) be_secure();
   if (!config.user.empty()) require_login(factory);
   g_signal_connect(factory, "media-configure",
                    G_CALLBACK(+[](GstRTSPMediaFactory*, GstRTSPMedia* media, Impl* self) {
@@ -158,7 +165,8 @@ RtspServer::Impl::~Impl() {
 
 void RtspServer::Impl::require_login(GstRTSPMediaFactory* factory) {
   constexpr const char* kRole = "viewer";
-  GstRTSPAuth* auth = gst_rtsp_auth_new();
+  GstRTSPAuth* auth = gst_rtsp_server_get_auth(server_);
+  if (auth == nullptr) auth = gst_rtsp_auth_new();
   gst_rtsp_auth_set_supported_methods(auth, GST_RTSP_AUTH_DIGEST);
   GstRTSPToken* token =
       gst_rtsp_token_new(GST_RTSP_TOKEN_MEDIA_FACTORY_ROLE, G_TYPE_STRING, kRole, nullptr);
@@ -172,6 +180,22 @@ void RtspServer::Impl::require_login(GstRTSPMediaFactory* factory) {
                                 G_TYPE_BOOLEAN, TRUE, nullptr);
   gst_rtsp_media_factory_set_permissions(factory, permissions);
   gst_rtsp_permissions_unref(permissions);
+}
+
+void RtspServer::Impl::be_secure() {
+  GError* error = nullptr;
+  GTlsCertificate* certificate =
+      g_tls_certificate_new_from_pem(config_.certificate.c_str(), -1, &error);
+  if (error != nullptr) {
+    const std::string text = error->message;
+    g_clear_error(&error);
+    throw std::runtime_error("certificate: " + text);
+  }
+  GstRTSPAuth* auth = gst_rtsp_auth_new();
+  gst_rtsp_auth_set_tls_certificate(auth, certificate);
+  gst_rtsp_server_set_auth(server_, auth);
+  g_object_unref(auth);
+  g_object_unref(certificate);
 }
 
 void RtspServer::Impl::listen() {
@@ -374,7 +398,8 @@ RtspServer::RtspServer(const RtspServerConfig& config,
 RtspServer::~RtspServer() = default;
 
 std::string RtspServer::url() const {
-  return "rtsp://" + impl_->config_.address + ":" + std::to_string(impl_->port_) + kPath;
+  return (impl_->config_.certificate.empty() ? "rtsp://" : "rtsps://") + impl_->config_.address +
+         ":" + std::to_string(impl_->port_) + kPath;
 }
 
 void RtspServer::set_size(int width_px, int height_px) {

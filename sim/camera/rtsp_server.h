@@ -13,12 +13,13 @@
 
 namespace ols::sim {
 
-enum class VideoCodec { kH264, kJpeg };
+enum class VideoCodec { kH264, kH265, kJpeg };
 
 struct RtspServerConfig {
   std::string address;         // of the network interface to use
   int port = 8554;             // 0: any
   std::string user, password;  // empty: no login
+  std::string certificate;     // PEM with the private key, for rtsps; empty: rtsp
   VideoCodec codec = VideoCodec::kH264;
   int width_px = 1280, height_px = 960;
   double frame_rate_hz = 25.0;

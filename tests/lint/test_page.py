@@ -182,6 +182,7 @@ TOLD_ELSEWHERE = {
     *("a procedure without stages", "it stands", "degrees high", "not a span of time"),
     *("below 10 the refraction is not known well enough", "the unit cannot look there"),
     *("the unit cannot look there, or not beside it", "the picture beside it is missing"),
+    "must be sha256// and the 44 characters of the key's hash",
     *("up (1-sigma", "deg: the stored view is not recognised"),
 }
 

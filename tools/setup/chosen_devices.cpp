@@ -66,29 +66,38 @@ std::string stated(const Values& values, const std::string& key) {
 
 struct Learnt {
   onvif::Offer offer;
-  std::string user, password_file;
+  std::string user, password_file, pinned_key;
 };
 
 Learnt learn_as_stated(const std::string& url, const Host& host, const Values& values) {
   const std::string user = stated(values, "user"), file = stated(values, "password_file");
   const std::string password = device::read_password(file.empty() ? "" : host.path(file));
-  return {learn_onvif(url, {user, password}, stated(values, "pinned_key")), user, file};
+  const std::string pin = stated(values, "pinned_key");
+  return {learn_onvif(url, {user, password}, pin), user, file, pin};
 }
 
 // Asks until the camera takes what is typed. Cameras lock an account after a few tries, so a person
 // makes each of them.
 Learnt learn_with_a_person(const std::string& url, const Host& host, const Answers& answers) {
+  std::string pin = stated(answers.values, "pinned_key");
   for (;;) {
     std::printf("The login goes to %s\n", plain_text(url).c_str());
     const onvif::Credentials login = ask_login();
     try {
-      Learnt learnt{learn_onvif(url, login, stated(answers.values, "pinned_key")), login.user, ""};
+      Learnt learnt{learn_onvif(url, login, pin), login.user, "", pin};
       if (login.user.empty()) return learnt;
       learnt.password_file = keep_password(host, answers.station, login.password);
       std::printf("%s: written\n", host.path(learnt.password_file).c_str());
       return learnt;
     } catch (const onvif::LoginRefused& refused) {
       std::printf("  %s\n", refused.what());
+    } catch (const onvif::CertificateRefused& refused) {
+      if (refused.key.empty() || !pin.empty()) throw;
+      std::printf("  %s\n", refused.what());
+      const std::vector<std::string> replies{"no, stop", "yes, pin it"};
+      const std::string words = "Does the camera's own page show this key?";
+      if (ask_which(std::cin, std::cout, words, replies) == replies.front()) throw;
+      pin = refused.key;
     }
   }
 }
@@ -99,7 +108,7 @@ void take_onvif(const std::string& url, const Host& host, Answers& answers, bool
                             ? learn_with_a_person(url, host, answers)
                             : learn_as_stated(url, host, values);
   const auto& stream = one_stream(learnt.offer, values, asks);
-  add_onvif(values, url, stream, {learnt.user, learnt.password_file});
+  add_onvif(values, url, stream, {learnt.user, learnt.password_file, learnt.pinned_key});
   std::printf("camera: %s at %s, stream %s\n", learnt.offer.device.c_str(), url.c_str(),
               words_of(stream).c_str());
 }

@@ -32,7 +32,10 @@ double scale(const std::optional<mount::Space>& space, mount::Span mount::Space:
   return greatest > kGeneric ? 1.0 : whole / greatest;
 }
 
-void add_login(Values& values, const std::string& device, const OnvifLogin& login) {
+void add_login(Values& values, const std::string& device, const std::string& url,
+               const OnvifLogin& login) {
+  const bool is_secure = url.starts_with("https:") || url.starts_with("rtsps:");
+  if (is_secure && !login.pinned_key.empty()) add(values, device + ".pinned_key", login.pinned_key);
   if (login.user.empty()) return;
   add(values, device + ".user", login.user);
   add(values, device + ".password_file", login.password_file);
@@ -73,7 +76,7 @@ void add_onvif(Values& values, const std::string& url, const onvif::Offer::Strea
     add_number(values, "station.camera.width_px", stream.profile.width_px);
     add_number(values, "station.camera.height_px", stream.profile.height_px);
     add_number(values, "station.camera.frame_rate_hz", stream.profile.frame_rate_hz);
-    add_login(values, "station.camera", login);
+    add_login(values, "station.camera", stream.url, login);
   }
   const bool wanted = is_onvif_mount(values);
   if (has_mount(values) && !wanted) return;
@@ -81,7 +84,7 @@ void add_onvif(Values& values, const std::string& url, const onvif::Offer::Strea
     throw std::runtime_error("the ONVIF camera at " + url + " does not turn");
   if (stream.ptz) {
     add_mount(values, url, stream);
-    add_login(values, "station.mount", login);
+    add_login(values, "station.mount", url, login);
   } else {
     add(values, "station.mount.kind", "fixed");
   }

@@ -14,6 +14,7 @@ std::string words_of(const onvif::Offer::Stream& stream);
 
 struct OnvifLogin {
   std::string user, password_file;  // both empty: no login is needed
+  std::string pinned_key{};         // of the camera's certificate; empty: none
 };
 
 // Adds the values that the answers under [station] lack. `url`: of the device service. If the

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "edge/device/certificate_key.h"
+
 namespace ols::camera {
 namespace {
 
@@ -37,6 +39,8 @@ void check(ConfigTable& table, const RtspConfig& c) {
                       "user and password_file need each other");
   if (c.url.starts_with("rtsps:") && c.transport == RtspTransport::kUdp)
     throw table.error("transport", "rtsps:// needs tcp");
+  if (!c.pinned_key.empty() && !c.url.starts_with("rtsps:"))
+    throw table.error("pinned_key", "only rtsps:// has a certificate");
 }
 
 }  // namespace
@@ -57,6 +61,10 @@ config::Section rtsp_section(RtspConfig& c) {
       config::text("password_file", c.password_file,
                    "File whose first line is that user's password; only the station may be able "
                    "to read it."),
+      config::text("pinned_key", c.pinned_key,
+                   "Public key of an rtsps camera whose certificate is its own: sha256// and the "
+                   "key's hash; empty: an authority that this system trusts must have signed it.",
+                   device::check_pinned_key),
       config::word("transport", c.transport,
                    {{"tcp", RtspTransport::kTcp}, {"udp", RtspTransport::kUdp}},
                    "TCP loses no packets; UDP does not wait for lost ones.")};

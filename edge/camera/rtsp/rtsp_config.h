@@ -15,6 +15,9 @@ struct RtspConfig : CameraConfig {
   std::string user;
   // File whose first line is the password; it is read at each connection.
   std::string password_file;
+  // For rtsps: the key of the camera's certificate (edge/device/certificate_key.h); if empty, the
+  // certificate must be signed by an authority that this system trusts.
+  std::string pinned_key;
   RtspTransport transport = RtspTransport::kTcp;
   RtspClock::Config clock;
   // Time from the exposure of the first row to that of the last row; 0 if all rows are exposed at

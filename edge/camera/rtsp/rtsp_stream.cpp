@@ -1,17 +1,19 @@
 #include "edge/camera/rtsp/rtsp_stream.h"
 
+#include <gio/gio.h>
 #include <gst/app/gstappsink.h>
 #include <gst/gst.h>
 
 #include <algorithm>
 #include <array>
 #include <mutex>
-#include <string_view>
+#include <utility>
 
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
 #include "edge/camera/gstreamer/gst_picture.h"
 #include "edge/camera/rtsp/rtsp_offer.h"
+#include "edge/device/certificate_key.h"
 
 namespace ols::camera {
 namespace {
@@ -20,6 +22,34 @@ namespace {
 constexpr guint kReorder_ms = 50;
 constexpr guint64 kTimeout_us = 5'000'000;
 constexpr std::int64_t kNtpToUtc_ns = 2'208'988'800LL * 1'000'000'000LL;
+
+// Authorities of which there are none.
+struct TrustsNobody {
+  GTlsDatabase parent;
+};
+struct TrustsNobodyClass {
+  GTlsDatabaseClass parent;
+};
+G_DEFINE_TYPE(TrustsNobody, trusts_nobody, G_TYPE_TLS_DATABASE)
+
+void trusts_nobody_init(TrustsNobody*) {}
+void trusts_nobody_class_init(TrustsNobodyClass* type) {
+  type->parent.verify_chain = [](GTlsDatabase*, GTlsCertificate*, const gchar*, GSocketConnectable*,
+                                 GTlsInteraction*, GTlsDatabaseVerifyFlags, GCancellable*,
+                                 GError**) { return G_TLS_CERTIFICATE_UNKNOWN_CA; };
+}
+
+std::string words_of(GTlsCertificateFlags errors) {
+  std::string words;
+  for (const auto& [flag, meaning] :
+       {std::pair{G_TLS_CERTIFICATE_UNKNOWN_CA, "signed by nobody whom this system trusts"},
+        {G_TLS_CERTIFICATE_BAD_IDENTITY, "made for another host"},
+        {G_TLS_CERTIFICATE_EXPIRED, "expired"},
+        {G_TLS_CERTIFICATE_NOT_ACTIVATED, "not valid yet"},
+        {G_TLS_CERTIFICATE_REVOKED, "revoked"}})
+    if ((errors & flag) != 0) words += (words.empty() ? "" : ", ") + std::string(meaning);
+  return words.empty() ? "not valid" : words;
+}
 
 struct Caps {
   explicit Caps(const char* text) : caps(gst_caps_from_string(text)) {}
@@ -36,6 +66,8 @@ struct RtspStream::Impl {
   ~Impl();
 
   void add_source(const RtspConfig& config, const std::string& password);
+  void secure(GstElement* source, const RtspConfig& config);
+  bool judge(GTlsCertificate* certificate, GTlsCertificateFlags errors);
   bool choose(const GstCaps* caps);
   void link(GstPad* pad);
   void note_packet(GstBuffer* buffer);
@@ -45,19 +77,21 @@ struct RtspStream::Impl {
   std::optional<DecodedPicture> picture_of(GstSample* sample);
 
   const bool wants_colour_;
+  const std::string pinned_key_;
   const Caps ntp_{"timestamp/x-ntp"};
   GstElement* pipeline_ = nullptr;
   GstElement* sink_ = nullptr;  // in the pipeline
 
   mutable std::mutex mutex_;  // guards all below: GStreamer's threads write them
   const RtspCodec* codec_ = nullptr;
-  std::string trouble_;  // there is nothing to decode
+  std::string trouble_;      // there is nothing to decode
+  std::string certificate_;  // why it is refused
   std::optional<RtpPictures> pictures_;
   bool linked_ = false;
 };
 
 RtspStream::Impl::Impl(const RtspConfig& config, const std::string& password)
-    : wants_colour_(config.keep_raw) {
+    : wants_colour_(config.keep_raw), pinned_key_(config.pinned_key) {
   pipeline_ = gst_pipeline_new(nullptr);
   try {
     add_source(config, password);
@@ -87,6 +121,7 @@ void RtspStream::Impl::add_source(const RtspConfig& config, const std::string& p
                kTimeout_us, "protocols", config.transport == RtspTransport::kTcp ? 4 : 1, nullptr);
   if (!config.user.empty())
     g_object_set(source, "user-id", config.user.c_str(), "user-pw", password.c_str(), nullptr);
+  secure(source, config);
   g_signal_connect(source, "select-stream",
                    G_CALLBACK(+[](GstElement*, guint, GstCaps* caps, Impl* self) -> gboolean {
                      return self->choose(caps) ? TRUE : FALSE;
@@ -98,6 +133,36 @@ void RtspStream::Impl::add_source(const RtspConfig& config, const std::string& p
   const Caps formats(gst_formats(wants_colour_));
   g_object_set(sink_, "caps", formats.caps, "sync", FALSE, "drop", TRUE, "max-buffers", 1,
                "wait-on-eos", FALSE, nullptr);
+}
+
+// If a key is pinned, no authority vouches for a certificate: judge() is asked about each.
+void RtspStream::Impl::secure(GstElement* source, const RtspConfig& config) {
+  if (!config.url.starts_with("rtsps:")) return;
+  g_signal_connect(source, "accept-certificate",
+                   G_CALLBACK(+[](GstElement*, GTlsConnection*, GTlsCertificate* certificate,
+                                  GTlsCertificateFlags errors, Impl* self) -> gboolean {
+                     return self->judge(certificate, errors) ? TRUE : FALSE;
+                   }),
+                   this);
+  if (config.pinned_key.empty()) return;
+  gpointer nobody = g_object_new(trusts_nobody_get_type(), nullptr);
+  g_object_set(source, "tls-database", nobody, nullptr);
+  g_object_unref(nobody);
+}
+
+// Asked about a certificate that no authority vouches for.
+bool RtspStream::Impl::judge(GTlsCertificate* certificate, GTlsCertificateFlags errors) {
+  GByteArray* der = nullptr;
+  g_object_get(certificate, "certificate", &der, nullptr);
+  const std::string key =
+      der == nullptr ? "" : device::certificate_key({der->data, std::size_t{der->len}});
+  if (der != nullptr) g_byte_array_unref(der);
+  if (!pinned_key_.empty() && key == pinned_key_) return true;
+  std::string words = pinned_key_.empty() ? "" : "its key is not pinned_key";
+  if (words.empty()) words = words_of(errors);
+  const std::lock_guard lock(mutex_);
+  certificate_ = words + "; its key is " + key;
+  return false;
 }
 
 // The first video stream; no sound, no metadata.
@@ -184,6 +249,7 @@ void RtspStream::Impl::fail(GstMessage* message) {
   const bool unfit = error->domain == GST_STREAM_ERROR;
   g_clear_error(&error);
   const std::lock_guard lock(mutex_);
+  if (!certificate_.empty()) throw CameraUnfit(alarm::camera_certificate(certificate_));
   if (login) throw LoginRefused(alarm::camera_refuses_login());
   if (unfit || !trouble_.empty())
     throw CameraUnfit(alarm::camera_not_video(trouble_.empty() ? text : trouble_));

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <string_view>
 
+#include "edge/device/certificate_key.h"
+
 namespace ols::onvif {
 namespace {
 
@@ -70,6 +72,45 @@ struct HttpLink::Impl {
       throw HttpError("libcurl refuses an option");
   }
 
+  // The key of the camera's certificate. Nothing is sent to the camera.
+  std::string key_at(const std::string& url) {
+    prepare();
+    set(CURLOPT_URL, url.c_str());
+    set(CURLOPT_CONNECT_ONLY, 1L);
+    set(CURLOPT_CERTINFO, 1L);
+    set(CURLOPT_PINNEDPUBLICKEY, static_cast<const char*>(nullptr));
+    set(CURLOPT_SSL_VERIFYPEER, 0L);
+    set(CURLOPT_SSL_VERIFYHOST, 0L);
+    std::string key;
+    {
+      const Added added(*this);
+      curl_certinfo* chain = nullptr;
+      if (run() == CURLE_OK && curl_easy_getinfo(easy, CURLINFO_CERTINFO, &chain) == CURLE_OK &&
+          chain != nullptr && chain->num_of_certs > 0) {
+        for (const curl_slist* line = chain->certinfo[0]; line != nullptr; line = line->next)
+          if (key.empty()) key = device::certificate_key_of_pem(line->data);
+      }
+    }
+    prepare();
+    return key;
+  }
+
+  [[noreturn]] void refuse(const std::string& url) {
+    std::string words = trouble.data();
+    const std::string key = key_at(url);
+    if (!config.pinned_key.empty()) words = "its key is not pinned_key";
+    if (!key.empty()) words += "; its key is " + key;
+    throw CertificateRefused("certificate refused: " + words, key);
+  }
+
+  struct Added {
+    Impl& link;
+    explicit Added(Impl& to) : link(to) { curl_multi_add_handle(link.multi, link.easy); }
+    ~Added() { curl_multi_remove_handle(link.multi, link.easy); }
+    Added(const Added&) = delete;
+    Added& operator=(const Added&) = delete;
+  };
+
   // Runs until the exchange has ended.
   CURLcode run() {
     for (;;) {
@@ -115,13 +156,13 @@ HttpLink::Answer HttpLink::post(const std::string& url, const std::string& actio
   link.set(CURLOPT_HTTPAUTH, digest == nullptr ? CURLAUTH_NONE : CURLAUTH_DIGEST);
   link.set(CURLOPT_USERNAME, digest == nullptr ? nullptr : digest->user.c_str());
   link.set(CURLOPT_PASSWORD, digest == nullptr ? nullptr : digest->password.c_str());
-  struct Added {
-    Impl& link;
-    explicit Added(Impl& to) : link(to) { curl_multi_add_handle(link.multi, link.easy); }
-    ~Added() { curl_multi_remove_handle(link.multi, link.easy); }
-  } added(link);
-  const CURLcode result = link.run();
+  const CURLcode result = [&] {
+    const Impl::Added added(link);
+    return link.run();
+  }();
   if (received.too_long) throw HttpError("the answer is too long");
+  if (result == CURLE_PEER_FAILED_VERIFICATION || result == CURLE_SSL_PINNEDPUBKEYNOTMATCH)
+    link.refuse(url);
   if (result != CURLE_OK)
     throw HttpError(link.trouble[0] == '\0' ? curl_easy_strerror(result) : link.trouble.data());
   curl_easy_getinfo(link.easy, CURLINFO_RESPONSE_CODE, &received.answer.status);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "edge/mount/onvif/soap_request.h"
 
@@ -14,6 +15,14 @@ namespace ols::onvif {
 
 struct HttpError : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+// Nobody whom this system trusts has signed the camera's certificate, or the certificate is for
+// another host or time, or its key is not the pinned one. `key`: of the camera that answers, as
+// certificate_key() (edge/device/certificate_key.h); empty if it could not be read.
+struct CertificateRefused : HttpError {
+  CertificateRefused(const std::string& words, std::string of_camera)
+      : HttpError(words), key(std::move(of_camera)) {}
+  std::string key;
 };
 // Thrown by post() if interrupt() has ended the exchange.
 struct Interrupted : HttpError {

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "edge/config/config_units.h"
+#include "edge/device/certificate_key.h"
 #include "edge/mount/driven/drive_config.h"
 #include "edge/mount/onvif/service_address.h"
 
@@ -67,7 +68,8 @@ config::Section onvif_section(OnvifConfig& c) {
       config::text(
           "pinned_key", c.pinned_key,
           "Public key of an https camera whose certificate is its own: sha256// and the key's "
-          "hash; empty: an authority that this system trusts must have signed it.")};
+          "hash; empty: an authority that this system trusts must have signed it.",
+          device::check_pinned_key)};
   for (auto more : {axis_rows(c.drive.pan, "pan"), axis_rows(c.drive.tilt, "tilt"),
                     mount::drive_rows(c.drive), request_rows(c)})
     std::ranges::move(more, std::back_inserter(rows));

@@ -40,6 +40,20 @@ TEST(OnvifAnswers, AStreamIsACameraAndItsMotionAMount) {
   EXPECT_EQ(words_of(stream(1.0)), "main: H264, 1280 x 720, 25 Hz, turns");
 }
 
+TEST(OnvifAnswers, APinnedKeyIsWrittenWhereThereIsACertificate) {
+  const std::string pin = "sha256//" + std::string(43, 'A') + "=";
+  Values values;
+  add_onvif(values, "https://10.0.0.5/onvif/device_service", stream(1.0), {"", "", pin});
+  EXPECT_NE(find(values, "station.mount.pinned_key"), nullptr);
+  EXPECT_EQ(find(values, "station.camera.pinned_key"), nullptr) << "rtsp has none";
+  auto secure = stream(1.0);
+  secure.url = "rtsps://10.0.0.5/video";
+  values.clear();
+  add_onvif(values, kUrl, secure, {"", "", pin});
+  EXPECT_EQ(find(values, "station.mount.pinned_key"), nullptr);
+  EXPECT_THAT(file(values), HasSubstr("pinned_key = \"" + pin));
+}
+
 TEST(OnvifAnswers, ACameraInDegreesHasNoScale) {
   Values values;
   add_onvif(values, kUrl, stream(175.0), {});

@@ -11,7 +11,9 @@
 #include "edge/camera/rtsp/rtsp_camera.h"
 #include "sim/camera/rtsp_server.h"
 #include "sim/camera/time_in_picture.h"
+#include "tests/unit/edge/device/made_certificate.h"
 #include "tests/unit/sim/camera/camera_rig.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace ols {
 namespace {
@@ -86,6 +88,7 @@ bool any(const camera::Frame&) { return true; }
 TEST(RtspWire, EveryCodecGivesPicturesWithTheirTimes) {
   for (const auto& [codec, transport, colour] :
        {std::tuple{sim::VideoCodec::kH264, camera::RtspTransport::kUdp, true},
+        std::tuple{sim::VideoCodec::kH265, camera::RtspTransport::kTcp, true},
         std::tuple{sim::VideoCodec::kJpeg, camera::RtspTransport::kTcp, false}}) {
     auto config = server_config();
     config.codec = codec;
@@ -194,6 +197,38 @@ TEST(RtspWire, AWrongPasswordIsTriedOnceAndARightOneAtOnce) {
   std::ofstream(file) << "right\n";
   EXPECT_TRUE(wire.await(any)) << wire.camera->report().text;
   std::filesystem::remove(file);
+}
+
+// The certificate is the camera's own, has expired, and is for another host.
+TEST(RtspWire, ACertificateIsRefusedWithItsKeyAndTakenOnceThatIsPinned) {
+  const auto certificate = device::made_certificate("camera", -1);
+  auto config = server_config();
+  config.user = "admin";
+  config.password = "right";
+  config.certificate = certificate.pem;
+  Wire wire(config);
+  const TemporaryFolder folder;
+  auto station = camera_config(wire.server.url());
+  station.user = "admin";
+  station.password_file = folder / "password";
+  std::ofstream(station.password_file) << "right\n";
+  const auto refusal_of = [&](const std::string& pin) {
+    station.pinned_key = pin;
+    wire.connect(station);
+    wire.await_report([](const device::DeviceReport& report) {
+      return std::ranges::any_of(report.alarms,
+                                 [](const Alarm& a) { return a.id == "camera_certificate"; });
+    });
+    return wire.camera->report().text;
+  };
+  const std::string why = refusal_of("");
+  for (const char* words : {"nobody whom this system trusts", "another host", "expired"})
+    EXPECT_THAT(why, HasSubstr(words));
+  EXPECT_THAT(why, HasSubstr("its key is " + certificate.pin));
+  EXPECT_THAT(refusal_of(device::made_certificate("camera").pin), HasSubstr("not pinned_key"));
+  station.pinned_key = certificate.pin;
+  wire.connect(station);
+  EXPECT_TRUE(wire.await(any)) << wire.camera->report().text;
 }
 
 TEST(RtspWire, LostPacketsGiveNoSmearedPictures) {
