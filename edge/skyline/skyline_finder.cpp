@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 namespace ols::skyline {
 namespace {
 
-constexpr int kHalf = 4;          // [px] rows that are averaged above and below an edge
+using Steps = StripSteps;
+constexpr int kHalf = Steps::kHalf;
 constexpr double kSlack_px = 12;  // searched beyond three sigmas of the expected row
 
 // The logarithm of the density of a normal distribution, but for a constant. Limited, so that a
@@ -35,41 +35,6 @@ double median_size(std::vector<float> values) {
   std::ranges::nth_element(values, middle, {}, [](float value) { return std::abs(value); });
   return std::abs(*middle);
 }
-
-// Brightness of the strips, and for each row the step of brightness between the rows above it and
-// those from it downwards.
-class Steps {
- public:
-  explicit Steps(const cv::Mat& gray) {
-    const cv::Mat whole = gray.colRange(0, strips_of(gray.cols) * kStrip_px);
-    cv::Mat brightness;
-    whole.convertTo(brightness, CV_32F);
-    cv::resize(brightness, brightness, {strips_of(gray.cols), gray.rows}, 0.0, 0.0, cv::INTER_AREA);
-    strips_ = brightness.t();  // a strip is contiguous
-    steps_ = cv::Mat::zeros(strips_.size(), CV_32F);
-    for (int strip = 0; strip < strips_.rows; ++strip) {
-      const float* b = strips_.ptr<float>(strip);
-      float* out = steps_.ptr<float>(strip);
-      double above = 0.0, below = 0.0;
-      for (int row = 0; row < 2 * kHalf && row < rows(); ++row)
-        (row < kHalf ? above : below) += b[row];
-      for (int row = kHalf; row + kHalf <= rows(); ++row) {
-        out[row] = static_cast<float>((above - below) / kHalf);
-        if (row + kHalf == rows()) break;
-        above += b[row] - b[row - kHalf];
-        below += b[row + kHalf] - b[row];
-      }
-    }
-  }
-
-  int rows() const { return strips_.cols; }
-  bool has(int row) const { return row >= kHalf && row + kHalf <= rows(); }
-  const float* of(int strip) const { return steps_.ptr<float>(strip); }
-  const float* brightness(int strip) const { return strips_.ptr<float>(strip); }
-
- private:
-  cv::Mat strips_, steps_;
-};
 
 // The rows that are searched: the same number on both sides of the expected row of each strip.
 struct Band {
@@ -254,6 +219,24 @@ std::optional<Row> refine(const float* b, int rows, int row, const Texture& text
 }
 
 }  // namespace
+
+cv::Mat edge_probabilities(const cv::Mat& gray) {
+  // As if each row were expected alike.
+  const Rows anywhere(static_cast<std::size_t>(strips_of(gray.cols)),
+                      Row{0.5 * gray.rows, 100.0 * gray.rows});
+  const Steps steps(gray);
+  const Band band = band_of(anywhere, gray.rows);
+  const Texture texture = texture_of(steps, anywhere, band);
+  const cv::Mat p = posterior(likelihoods(steps, anywhere, band, texture));
+  cv::Mat result = cv::Mat::zeros(p.rows, gray.rows + 2, CV_32F);
+  for (int strip = 0; strip < p.rows; ++strip) {
+    for (int state = 0; state < p.cols; ++state) {
+      const int entry = std::clamp(band.row(strip, state), -1, gray.rows) + 1;
+      result.at<float>(strip, entry) += p.at<float>(strip, state);
+    }
+  }
+  return result;
+}
 
 Rows find_skyline(const cv::Mat& gray, const Rows& expected) {
   Rows found(expected.size());

@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-namespace ols::skyline {
+#include "edge/skyline/strip_steps.h"
 
-inline constexpr int kStrip_px = 2;  // width of a strip
+namespace ols::skyline {
 
 // A row of the picture; row 0.0 is the middle of the topmost pixels.
 struct Row {
@@ -22,13 +22,14 @@ struct Row {
 };
 using Rows = std::vector<std::optional<Row>>;  // one for each strip, from left to right
 
-inline int strips_of(int columns_px) { return columns_px / kStrip_px; }
-// The middle of a strip [px].
-inline double strip_x_px(int strip) { return kStrip_px * strip + 0.5 * (kStrip_px - 1); }
-
 // `gray`: 8 bit, one channel. `expected`: for each strip the expected row, which may be outside the
 // picture; nullopt if it is unknown. The result is nullopt for strips without a clear edge: in
 // cloud or haze, outside the picture, or if several rows are possible.
 Rows find_skyline(const cv::Mat& gray, const Rows& expected);
+
+// The probability of each row of each strip to be the edge, if nothing is known about it. The
+// result has one row for each strip. Its first and last columns are for an edge above and below the
+// picture. The uppermost sixth of the picture counts as sky, the lowest as land.
+cv::Mat edge_probabilities(const cv::Mat& gray);
 
 }  // namespace ols::skyline

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/skyline/modelled_crest.h"
 #include "geometry/angles.h"
 #include "land/column_march.h"
 
@@ -26,38 +27,16 @@ struct Place {
   double white_rad2 = 0.0;  // variance of what neighbours do not share
 };
 
-// Between the azimuths where the skyline is kSmooth_m away on both sides. The errors of a model
-// make its skyline rough: a slope over less would be of these errors, and would seem to tell much.
-std::optional<double> slope_at(const land::HorizonMap& map, double azimuth_rad, double distance_m) {
-  constexpr double kSmooth_m = land::kLowered_m / 3.0;
-  constexpr double kLeast_rad = radians(0.1), kMost_rad = radians(5.0);
-  const double step_rad = std::clamp(kSmooth_m / distance_m, kLeast_rad, kMost_rad);
-  const auto left = map.skyline(azimuth_rad - step_rad);
-  const auto right = map.skyline(azimuth_rad + step_rad);
-  if (!left || !right) return std::nullopt;
-  return (right->elevation_rad - left->elevation_rad) / (2.0 * step_rad);
-}
-
 std::optional<Place> place_of(const SeenPlace& seen, const land::HorizonMap& map, double turn_rad) {
-  // Of the model's error: trees, and what is between its heights. Of each place anew.
-  constexpr double kRough = 0.5;
   const double azimuth_rad = seen.direction.azimuth_rad + turn_rad;
-  const auto skyline = uncertain_skyline(map, azimuth_rad);
-  if (!skyline) return std::nullopt;
-  const double d = std::max(1.0, skyline->distance_m), rise = std::tan(skyline->elevation_rad);
-  const auto known_slope = slope_at(map, azimuth_rad, d);
-  if (!known_slope) return std::nullopt;
-  const double slope = *known_slope;
-  const double s = std::sin(azimuth_rad), c = std::cos(azimuth_rad);
-  const double refraction = land::refraction_slope(1.0, d);
+  const auto crest = crest_at(map, azimuth_rad);
+  if (!crest) return std::nullopt;
   Place place;
-  place.row << slope, 1.0, s, c, (slope * c + rise * s) / d, (-slope * s + rise * c) / d, -1.0 / d,
-      refraction, seen.direction.elevation_rad - skyline->elevation_rad;
-  place.crest_m = d * Eigen::Vector2d(s, c);
-  const double bent_rad = map.config().refraction_k_sd * refraction;
-  const double sd_rad = skyline->elevation_sd_rad;
-  place.model_sd_rad = std::sqrt(std::max(0.0, sd_rad * sd_rad - bent_rad * bent_rad));
-  place.white_rad2 = seen.variance_rad2 + std::pow(kRough * place.model_sd_rad, 2);
+  place.row << crest->slope, 1.0, std::sin(azimuth_rad), std::cos(azimuth_rad), crest->by_place,
+      crest->by_refraction, seen.direction.elevation_rad - crest->elevation_rad;
+  place.crest_m = crest->place_m;
+  place.model_sd_rad = crest->model_sd_rad;
+  place.white_rad2 = seen.variance_rad2 + crest->rough_rad2;
   return place;
 }
 

@@ -1,14 +1,18 @@
-// ols-land: imports the land around a site, and shows what it hides.
+// ols-land: imports the land around a site, shows what it hides, and finds the direction of a
+// photograph by it.
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/files/atomic_file.h"
 #include "base/process/command_line.h"
 #include "geometry/angles.h"
 #include "land/horizon_map.h"
 #include "land/terrain_folder.h"
+#include "tools/land/heading_command.h"
 #include "tools/land/land_import.h"
 
 namespace {
@@ -128,6 +132,85 @@ void add_import(CLI::App& app, land::ImportOptions& o, std::vector<double>& site
   command->add_option("--output", o.output, "Folder to make")->required();
 }
 
+// In degrees and percent, as they are given.
+struct HeadingView {
+  std::vector<double> at;
+  std::optional<double> heading_deg;
+  double heading_sd_deg = 5.0, tilt_deg = 0.0, tilt_sd_deg = 8.0, roll_deg = 0.0, roll_sd_deg = 2.0;
+  double focal_sd_percent = 1.0, reach_km = 60.0;
+};
+
+CLI::App* add_heading(CLI::App& app, land::HeadingOptions& o, HeadingView& view) {
+  o.camera.fy_px = o.camera.cx_px = o.camera.cy_px = std::nan("");
+  o.position_sd_m = 5.0;
+  o.prior.k1_sd = 0.02;
+  const CLI::Range sd(0.001, 90.0);
+  auto* command = app.add_subcommand("heading", "The direction of a photograph, by its skyline");
+  command->add_option("folder", o.folder, "Folder of ols-land import")->required();
+  command->add_option("--picture", o.picture, "By day, sky above")->required();
+  command
+      ->add_option("--at", view.at,
+                   "Camera: latitude,longitude in degrees, ellipsoidal height in metres")
+      ->required()
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--position-sd", o.position_sd_m, "1-sigma of it in metres")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  command->add_option("--fx", o.camera.fx_px, "Focal length in pixels of the picture")
+      ->required()
+      ->check(CLI::Range(10.0, 1e6));
+  command->add_option("--fy", o.camera.fy_px, "The same vertically; without it as --fx")
+      ->check(CLI::Range(10.0, 1e6));
+  command->add_option("--fx-sd", view.focal_sd_percent, "1-sigma of both in percent")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--cx", o.camera.cx_px, "Principal point; without it the middle");
+  command->add_option("--cy", o.camera.cy_px, "The same vertically");
+  command->add_option("--k1", o.camera.k1, "Radial distortion, as OpenCV has it");
+  command->add_option("--k1-sd", o.prior.k1_sd, "1-sigma of it")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--k2", o.camera.k2);
+  command->add_option("--heading", view.heading_deg,
+                      "About, in degrees from true north; without it all around is searched");
+  command->add_option("--heading-sd", view.heading_sd_deg, "1-sigma of it")
+      ->check(sd)
+      ->capture_default_str();
+  command->add_option("--tilt", view.tilt_deg, "Elevation of the optical axis, about")
+      ->check(CLI::Range(-60.0, 60.0))
+      ->capture_default_str();
+  command->add_option("--tilt-sd", view.tilt_sd_deg, "1-sigma of it")
+      ->check(CLI::Range(0.001, 20.0))
+      ->capture_default_str();
+  command->add_option("--roll", view.roll_deg, "About; positive: the picture's right side is low")
+      ->check(CLI::Range(-45.0, 45.0))
+      ->capture_default_str();
+  command->add_option("--roll-sd", view.roll_sd_deg, "1-sigma of it")
+      ->check(CLI::Range(0.001, 15.0))
+      ->capture_default_str();
+  command->add_option("--reach-km", view.reach_km, "How far to look")
+      ->check(CLI::Range(0.1, 200.0))
+      ->capture_default_str();
+  return command;
+}
+
+int print_heading(land::HeadingOptions options, const HeadingView& view) {
+  if (std::abs(view.at[0]) > 90.0 || std::abs(view.at[1]) > 180.0) {
+    throw std::invalid_argument("--at: is no latitude and longitude");
+  }
+  options.at = {radians(view.at[0]), radians(view.at[1]), view.at[2]};
+  options.reach_m = 1000.0 * view.reach_km;
+  if (view.heading_deg) options.prior.heading_rad = radians(*view.heading_deg);
+  options.prior.heading_sd_rad = radians(view.heading_sd_deg);
+  options.prior.tilt_rad = radians(view.tilt_deg);
+  options.prior.tilt_sd_rad = radians(view.tilt_sd_deg);
+  options.prior.roll_rad = radians(view.roll_deg);
+  options.prior.roll_sd_rad = radians(view.roll_sd_deg);
+  options.prior.focal_sd = 0.01 * view.focal_sd_percent;
+  return land::print_heading(std::move(options));
+}
+
 CLI::App* add_view(CLI::App& app, const char* name, const char* about, View& view) {
   auto* command = app.add_subcommand(name, about);
   command->add_option("folder", view.folder, "Folder of ols-land import")->required();
@@ -158,6 +241,9 @@ int main(int argc, char** argv) {
   std::optional<double> elevation_deg;
   add_import(app, options, site);
   auto* horizon = add_view(app, "horizon", "The skyline of a camera, by azimuth", view);
+  land::HeadingOptions heading_options;
+  HeadingView heading_view;
+  auto* heading = add_heading(app, heading_options, heading_view);
   auto* profile = add_view(app, "profile", "The land along one azimuth of a camera", view);
   profile->add_option("--azimuth", view.azimuth_deg, "Clockwise from true north, in degrees")
       ->required();
@@ -167,6 +253,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.1, 10'000.0))
       ->capture_default_str();
   return run_command(app, argc, argv, "ols-land", [&] {
+    if (*heading) return print_heading(heading_options, heading_view);
     if (*horizon) {
       write_horizon(view);
     } else if (*profile) {

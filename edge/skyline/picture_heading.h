@@ -1,0 +1,25 @@
+// Finds the direction of one photograph by the skyline of the land. Pure.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "edge/skyline/picture_fit.h"
+
+namespace ols::skyline {
+
+struct PictureHeading {
+  // The best direction; nullopt if the picture shows no skyline that could be one of the land.
+  std::optional<PictureFit> fit;
+  // Why the picture does not determine the heading, as a sentence; empty: it does.
+  std::string doubt;
+  // How much the evidence for this heading exceeds that for any other.
+  double lead = 0.0;
+};
+
+// `picture`: 8 bit, blue, green, red; sky above, by day. `camera`: of the whole picture.
+PictureHeading picture_heading(const cv::Mat& picture, const CameraIntrinsics& camera,
+                               const land::HorizonMap& map, const PicturePrior& prior);
+
+}  // namespace ols::skyline
