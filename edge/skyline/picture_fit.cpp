@@ -13,10 +13,12 @@
 namespace ols::skyline {
 namespace {
 
-constexpr int kCamera = 5;              // heading, tilt, roll, logarithm of the focal length, k1
-constexpr int kUnknowns = kCamera + 4;  // and the place (east, north, up) and refraction
+constexpr int kCamera = 5;  // heading, tilt, roll, logarithm of the focal length, k1
+constexpr int kBeside = 4;  // and the place (east, north, up) and refraction
+constexpr int kUnknowns = kCamera + kBeside;
 constexpr std::size_t kMostPoints = 400, kLeastPoints = 30;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
+using Beside = Eigen::Matrix<double, kBeside, 1>;
 
 struct View {
   PicturePose pose;
@@ -59,8 +61,9 @@ struct Difference {
 
 // `off`: the camera's place in the model and refraction, beyond those of `map`.
 std::optional<Difference> difference_of(const Edge& edge, const View& view,
-                                        const land::HorizonMap& map, const Eigen::Vector4d& off) {
+                                        const land::HorizonMap& map, const Beside& off) {
   constexpr double kStep = 1e-5;
+  constexpr double kTexture = 4.0;  // haze and woods shift an edge by more than its noise says
   const auto seen = view.direction(edge.pixel);
   if (!seen) return std::nullopt;
   const auto crest = crest_at(map, seen->azimuth_rad);
@@ -77,17 +80,17 @@ std::optional<Difference> difference_of(const Edge& edge, const View& view,
   // The camera's offset makes the seen elevation differ; the fit takes it away.
   difference.by.segment<3>(kCamera) = -crest->by_place;
   difference.by(kCamera + 3) = -crest->by_refraction;
-  difference.off_rad += difference.by.tail<4>().dot(off);
+  difference.off_rad += difference.by.tail<kBeside>().dot(off);
   difference.place_m = crest->place_m;
   difference.model_sd_rad = crest->model_sd_rad;
   difference.x_px = edge.pixel.x();
-  difference.picture_sd_rad = edge.sd_px / view.camera.fy_px;
+  difference.picture_sd_rad = kTexture * edge.sd_px / view.camera.fy_px;
   difference.rough_rad2 = crest->rough_rad2;
   return difference;
 }
 
 std::vector<Difference> differences_of(const std::vector<Edge>& edges, const View& view,
-                                       const land::HorizonMap& map, const Eigen::Vector4d& off) {
+                                       const land::HorizonMap& map, const Beside& off) {
   std::vector<Difference> differences;
   for (const Edge& edge : edges) {
     if (auto one = difference_of(edge, view, map, off)) differences.push_back(*std::move(one));
@@ -99,7 +102,7 @@ std::vector<Difference> differences_of(const std::vector<Edge>& edges, const Vie
 // (haze, woods, the lens) in neighbouring columns. An outlier has more white noise.
 Eigen::MatrixXd covariance_of(const std::vector<Difference>& differences, const Unknowns& change) {
   constexpr double kUsual = 2.5;  // sigmas
-  constexpr double kAlike_px = 40.0;
+  constexpr double kAlike_px = 20.0;
   const auto n = static_cast<Eigen::Index>(differences.size());
   Eigen::MatrixXd C(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -193,7 +196,7 @@ class Fit {
     constexpr int kIterations = 12;
     constexpr double kMostTurn_rad = radians(0.5);
     for (int i = 0; i < kIterations; ++i) {
-      differences_ = differences_of(edges, view_, map_, from_prior_.tail<4>());
+      differences_ = differences_of(edges, view_, map_, from_prior_.tail<kBeside>());
       if (differences_.size() < kLeastPoints) return false;
       Solution solution = solve(differences_, Unknowns::Zero(), from_prior_, prior_sd_);
       solution = solve(differences_, solution.change, from_prior_, prior_sd_);
@@ -213,8 +216,12 @@ class Fit {
     fit.pose = view_.pose;
     fit.pose.heading_rad = wrap_two_pi(fit.pose.heading_rad);
     fit.camera = view_.camera;
+    // Errors in rendered photographs are about twice those of the model of the differences.
+    constexpr double kMeasured = 2.0;
     const double excess = std::max(1.0, solution_.misfit);
-    const auto sd = [&](int i) { return std::sqrt(excess * solution_.covariance(i, i)); };
+    const auto sd = [&](int i) {
+      return kMeasured * std::sqrt(excess * solution_.covariance(i, i));
+    };
     fit.sd = {sd(0), sd(1), sd(2)};
     for (std::size_t strip = 0; strip < expected_.size(); ++strip) {
       const auto& row = expected_[strip];
@@ -224,7 +231,7 @@ class Fit {
       ++fit.found;
       const Edge edge{{strip_x_px(static_cast<int>(strip)), found_[strip]->at_px},
                       found_[strip]->sd_px};
-      const auto one = difference_of(edge, view_, map_, from_prior_.tail<4>());
+      const auto one = difference_of(edge, view_, map_, from_prior_.tail<kBeside>());
       if (one && std::abs(one->off_rad) < 3.0 * one->sd_rad()) ++fit.agreeing;
     }
     return fit;
