@@ -249,7 +249,11 @@ void run_site(const land::TerrainFolder& folder, const Options& options, unsigne
   const Eigen::Vector3d off_m(normal(generator), normal(generator), normal(generator));
   const Geodetic stated =
       geodetic_from_ecef(LocalFrame(place).to_ecef(options.position_sd_m * off_m));
-  const land::HorizonMap known(*folder.terrain, stated, {.reach_m = 60'000.0});
+  std::vector<land::HorizonMap> maps;
+  for (const double reach_m : skyline::visibilities_m(60'000.0)) {
+    maps.emplace_back(*folder.terrain, stated, land::HorizonMapConfig{.reach_m = reach_m});
+  }
+  const land::HorizonMap& known = maps.front();
   const Case made = make_case(options, known, generator);
   constexpr double kSector_rad = radians(100.0);  // that a picture may show
   const land::HorizonMap truth(land, place,
@@ -271,7 +275,7 @@ void run_site(const land::TerrainFolder& folder, const Options& options, unsigne
   prior.focal_sd = options.focal_sd;
   prior.k1_sd = options.k1_sd;
   prior.place_sd_enu_m.setConstant(std::hypot(options.position_sd_m, 4.0));
-  const auto heading = skyline::picture_heading(picture, made.stated, known, prior);
+  const auto heading = skyline::picture_heading(picture, made.stated, maps, prior);
   ++sum.pictures;
   std::printf(
       "site %u: heading %.3f tilt %.2f roll %.2f, prior off %+.2f, visibility %.0f km, clouds "

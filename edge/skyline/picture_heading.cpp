@@ -63,6 +63,11 @@ Photograph reduced(const cv::Mat& picture, CameraIntrinsics camera) {
   return photograph;
 }
 
+struct Candidate {
+  PoseCandidate found;
+  const land::HorizonMap* map = nullptr;  // with which it was found
+};
+
 // A heading that may be right.
 struct Fitted {
   PicturePose pose;
@@ -76,13 +81,14 @@ struct Fitted {
 };
 
 // The best candidates, each at least `apart_rad` from a better one.
-std::vector<PoseCandidate> peaks(std::vector<PoseCandidate> candidates, double apart_rad,
-                                 std::size_t most) {
-  std::ranges::sort(candidates, std::greater<>(), &PoseCandidate::score);
-  std::vector<PoseCandidate> peaks;
-  for (const PoseCandidate& one : candidates) {
-    const bool is_new = std::ranges::none_of(peaks, [&](const PoseCandidate& peak) {
-      return std::abs(wrap_pi(peak.pose.heading_rad - one.pose.heading_rad)) < apart_rad;
+std::vector<Candidate> peaks(std::vector<Candidate> candidates, double apart_rad,
+                             std::size_t most) {
+  std::ranges::sort(candidates, std::greater<>(), [](const auto& one) { return one.found.score; });
+  std::vector<Candidate> peaks;
+  for (const Candidate& one : candidates) {
+    const bool is_new = std::ranges::none_of(peaks, [&](const Candidate& peak) {
+      return std::abs(wrap_pi(peak.found.pose.heading_rad - one.found.pose.heading_rad)) <
+             apart_rad;
     });
     if (is_new) peaks.push_back(one);
     if (peaks.size() == most) break;
@@ -97,9 +103,9 @@ double log_prior(const PicturePrior& prior, const PicturePose& pose) {
 
 class Judge {
  public:
-  Judge(Photograph photograph, const land::HorizonMap& map, const PicturePrior& prior)
+  Judge(Photograph photograph, std::span<const land::HorizonMap> maps, const PicturePrior& prior)
       : photograph_(std::move(photograph)),
-        map_(map),
+        maps_(maps),
         prior_(prior),
         evidence_(photograph_.colours, cell_px_for(photograph_.camera)) {
     cv::cvtColor(photograph_.colours, gray_, cv::COLOR_BGR2GRAY);
@@ -109,29 +115,32 @@ class Judge {
     constexpr double kApart_rad = radians(2.0);
     constexpr std::size_t kWithin = 4, kElsewhere = 3;
     // Headings that cannot be right show how well the land fits by chance.
-    std::vector<PoseCandidate> within, elsewhere;
-    for (const PoseCandidate& one : search_poses(evidence_, photograph_.camera, map_, prior_)) {
-      (is_within(prior_, one.pose.heading_rad) ? within : elsewhere).push_back(one);
+    std::vector<Candidate> within, elsewhere;
+    for (const land::HorizonMap& map : maps_) {
+      for (const PoseCandidate& one : search_poses(evidence_, photograph_.camera, map, prior_)) {
+        (is_within(prior_, one.pose.heading_rad) ? within : elsewhere).push_back({one, &map});
+      }
     }
     std::vector<Fitted> fitted;
     for (const auto& one : peaks(std::move(within), kApart_rad, kWithin)) {
-      fitted.push_back(fit(one.pose, prior_));
+      fitted.push_back(fit(one, prior_));
     }
     PicturePrior unknown = prior_;
     unknown.heading_rad.reset();
     for (const auto& one : peaks(std::move(elsewhere), kApart_rad, kElsewhere)) {
-      fitted.push_back(fit(one.pose, unknown));
+      fitted.push_back(fit(one, unknown));
     }
     return result_of(fitted);
   }
 
  private:
-  double score(const PicturePose& pose, const CameraIntrinsics& camera) const {
-    return evidence_for(pose, evidence_, camera, map_) + log_prior(prior_, pose);
-  }
-  Fitted fit(const PicturePose& start, const PicturePrior& prior) const {
+  Fitted fit(const Candidate& candidate, const PicturePrior& prior) const {
+    const PicturePose& start = candidate.found.pose;
+    const auto score = [&](const PicturePose& pose, const CameraIntrinsics& camera) {
+      return evidence_for(pose, evidence_, camera, *candidate.map) + log_prior(prior_, pose);
+    };
     Fitted fitted{start, {}, score(start, photograph_.camera)};
-    fitted.fit = fit_picture(gray_, photograph_.camera, map_, prior, start);
+    fitted.fit = fit_picture(gray_, photograph_.camera, *candidate.map, prior, start);
     if (fitted.fit) {
       fitted.pose = fitted.fit->pose;
       fitted.score = score(fitted.pose, fitted.fit->camera);
@@ -174,7 +183,7 @@ class Judge {
   }
 
   Photograph photograph_;
-  const land::HorizonMap& map_;
+  std::span<const land::HorizonMap> maps_;
   const PicturePrior& prior_;
   PictureEvidence evidence_;
   cv::Mat gray_;
@@ -182,9 +191,16 @@ class Judge {
 
 }  // namespace
 
+std::vector<double> visibilities_m(double reach_m) {
+  constexpr double kStep = 3.0, kLeast_m = 5000.0;
+  std::vector<double> all{reach_m};
+  while (all.back() / kStep > kLeast_m) all.push_back(all.back() / kStep);
+  return all;
+}
+
 PictureHeading picture_heading(const cv::Mat& picture, const CameraIntrinsics& camera,
-                               const land::HorizonMap& map, const PicturePrior& prior) {
-  return Judge(trimmed(reduced(picture, camera)), map, prior).judge();
+                               std::span<const land::HorizonMap> maps, const PicturePrior& prior) {
+  return Judge(trimmed(reduced(picture, camera)), maps, prior).judge();
 }
 
 }  // namespace ols::skyline

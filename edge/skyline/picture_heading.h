@@ -3,7 +3,9 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "edge/skyline/picture_fit.h"
 
@@ -18,8 +20,12 @@ struct PictureHeading {
   double lead = 0.0;
 };
 
-// `picture`: 8 bit, blue, green, red; sky above, by day. `camera`: of the whole picture.
+// How far one may have seen, if the land is known to `reach_m`: haze hides the land beyond.
+std::vector<double> visibilities_m(double reach_m);
+
+// `picture`: 8 bit, blue, green, red; sky above, by day. `camera`: of the whole picture. `maps`: of
+// the same place, one for each distance that one may have seen.
 PictureHeading picture_heading(const cv::Mat& picture, const CameraIntrinsics& camera,
-                               const land::HorizonMap& map, const PicturePrior& prior);
+                               std::span<const land::HorizonMap> maps, const PicturePrior& prior);
 
 }  // namespace ols::skyline

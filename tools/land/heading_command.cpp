@@ -53,9 +53,12 @@ int print_heading(HeadingOptions options) {
   const cv::Mat picture = read_picture(options.picture);
   complete(options.camera, picture);
   const TerrainFolder folder = read_terrain_folder(options.folder);
-  const HorizonMap map(*folder.terrain, options.at, {.reach_m = options.reach_m});
+  std::vector<HorizonMap> maps;
+  for (const double reach_m : skyline::visibilities_m(options.reach_m)) {
+    maps.emplace_back(*folder.terrain, options.at, HorizonMapConfig{.reach_m = reach_m});
+  }
   options.prior.place_sd_enu_m.setConstant(place_sd_m(options.position_sd_m, folder.manifest));
-  const auto found = skyline::picture_heading(picture, options.camera, map, options.prior);
+  const auto found = skyline::picture_heading(picture, options.camera, maps, options.prior);
   if (!found.doubt.empty()) {
     std::cerr << "ols-land: BAD  the picture does not determine the heading: " << found.doubt
               << '\n';

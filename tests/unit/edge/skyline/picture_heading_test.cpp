@@ -71,7 +71,7 @@ class PictureHeadingTest : public testing::Test {
 };
 
 TEST_F(PictureHeadingTest, FindsTheDirectionFromSevenDegreesOff) {
-  const auto found = picture_heading(picture_, camera_, model(), prior_of(207.0));
+  const auto found = picture_heading(picture_, camera_, {&model(), 1}, prior_of(207.0));
   ASSERT_EQ(found.doubt, "");
   const PictureFit& fit = *found.fit;
   EXPECT_LT(std::abs(fit.pose.heading_rad - kPose.heading_rad), 3.0 * fit.sd.heading_rad);
@@ -85,7 +85,7 @@ TEST_F(PictureHeadingTest, FindsTheDirectionFromSevenDegreesOff) {
 TEST_F(PictureHeadingTest, KnowsTheHorizonAllAround) {
   PicturePrior prior = prior_of(0.0);
   prior.heading_rad.reset();
-  const auto found = picture_heading(picture_, camera_, model(), prior);
+  const auto found = picture_heading(picture_, camera_, {&model(), 1}, prior);
   ASSERT_EQ(found.doubt, "");
   EXPECT_NEAR(degrees(found.fit->pose.heading_rad), degrees(kPose.heading_rad), 0.3);
 }
@@ -98,7 +98,7 @@ TEST_F(PictureHeadingTest, AFrameAndABranchInFrontChangeNothing) {
   camera_.height_px += 80;
   camera_.cx_px += 30.0;
   camera_.cy_px += 20.0;
-  const auto found = picture_heading(framed, camera_, model(), prior_of(203.0));
+  const auto found = picture_heading(framed, camera_, {&model(), 1}, prior_of(203.0));
   ASSERT_EQ(found.doubt, "");
   EXPECT_NEAR(degrees(found.fit->pose.heading_rad), degrees(kPose.heading_rad), 0.3);
 }
@@ -112,13 +112,13 @@ TEST_F(PictureHeadingTest, ALargePictureIsReduced) {
   camera_.fy_px *= 4.0;
   camera_.cx_px = 4.0 * (camera_.cx_px + 0.5) - 0.5;
   camera_.cy_px = 4.0 * (camera_.cy_px + 0.5) - 0.5;
-  const auto found = picture_heading(large, camera_, model(), prior_of(203.0));
+  const auto found = picture_heading(large, camera_, {&model(), 1}, prior_of(203.0));
   ASSERT_EQ(found.doubt, "");
   EXPECT_NEAR(degrees(found.fit->pose.heading_rad), degrees(kPose.heading_rad), 0.3);
 }
 
 TEST_F(PictureHeadingTest, SaysThatItDoesNotKnowWhenTheStatedHeadingIsElsewhere) {
-  EXPECT_NE(picture_heading(picture_, camera_, model(), prior_of(80.0)).doubt, "");
+  EXPECT_NE(picture_heading(picture_, camera_, {&model(), 1}, prior_of(80.0)).doubt, "");
 }
 
 TEST_F(PictureHeadingTest, SaysThatItDoesNotKnowOnAPlain) {
@@ -126,12 +126,13 @@ TEST_F(PictureHeadingTest, SaysThatItDoesNotKnowOnAPlain) {
   Geodetic camera = MadeSite::kCentre;
   camera.height_m = 580.0;
   const land::HorizonMap flat(plain, camera, quick_map());
-  EXPECT_NE(picture_heading(picture_of(flat, camera_), camera_, flat, prior_of(203.0)).doubt, "");
+  EXPECT_NE(picture_heading(picture_of(flat, camera_), camera_, {&flat, 1}, prior_of(203.0)).doubt,
+            "");
 }
 
 TEST_F(PictureHeadingTest, SaysThatItDoesNotKnowWithoutAnEdge) {
   picture_.setTo(cv::Scalar(180, 180, 180));
-  EXPECT_NE(picture_heading(picture_, camera_, model(), prior_of(203.0)).doubt, "");
+  EXPECT_NE(picture_heading(picture_, camera_, {&model(), 1}, prior_of(203.0)).doubt, "");
 }
 
 }  // namespace
