@@ -165,7 +165,7 @@ class Judge {
     return result;
   }
   static std::string doubt_of(const PictureFit& fit, double lead, const Fitted* other) {
-    constexpr double kAgreeing = 0.4, kLead = 25.0, kMost_rad = radians(0.5);
+    constexpr double kAgreeing = 0.75, kLead = 25.0, kMost_rad = radians(0.5);
     std::ostringstream text;
     text << std::fixed << std::setprecision(2);
     if (fit.agreeing < kAgreeing * fit.expected) {

@@ -121,6 +121,25 @@ TEST_F(PictureHeadingTest, SaysThatItDoesNotKnowWhenTheStatedHeadingIsElsewhere)
   EXPECT_NE(picture_heading(picture_, camera_, {&model(), 1}, prior_of(80.0)).doubt, "");
 }
 
+TEST_F(PictureHeadingTest, LandThatHazeHidesDoesNotMislead) {
+  land::HorizonMapConfig hazy = quick_map();
+  hazy.reach_m = 5000.0;
+  const MadeSite site(3);
+  const land::HorizonMap maps[] = {model(), {site.model(), site.camera(), hazy}};
+  picture_ = picture_of({site.truth(), site.camera(), hazy}, camera_);
+  const auto misled = picture_heading(picture_, camera_, {&model(), 1}, prior_of(203.0));
+  EXPECT_GT(std::abs(misled.fit->pose.heading_rad - kPose.heading_rad),
+            3.0 * misled.fit->sd.heading_rad);
+  const auto found = picture_heading(picture_, camera_, maps, prior_of(203.0));
+  EXPECT_LT(std::abs(found.fit->pose.heading_rad - kPose.heading_rad),
+            2.0 * found.fit->sd.heading_rad);
+}
+
+TEST(Visibilities, EachIsAThirdOfTheOneBefore) {
+  EXPECT_EQ(visibilities_m(60'000.0), (std::vector<double>{60'000.0, 20'000.0, 60'000.0 / 9.0}));
+  EXPECT_EQ(visibilities_m(4000.0), std::vector<double>{4000.0});
+}
+
 TEST_F(PictureHeadingTest, SaysThatItDoesNotKnowOnAPlain) {
   const land::MadeLand plain([](double, double) { return 500.0; }, kModelSd_m);
   Geodetic camera = MadeSite::kCentre;
