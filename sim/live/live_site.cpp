@@ -145,13 +145,19 @@ void LiveSite::connect_camera(Device& device) {
     draw(device, exposure, gray);
   };
   if (station.rtsp) {
-    device.rtsp = std::make_unique<RtspServer>(RtspServerConfig{.address = station.camera_address,
-                                                                .width_px = s.camera.width_px,
-                                                                .height_px = s.camera.height_px,
-                                                                .frame_rate_hz = s.frame_rate_hz,
-                                                                .exposure_s = s.exposure_s,
-                                                                .delay_s = s.readout_s},
-                                               paint);
+    // A PTZ camera has one login for both.
+    const OnvifConfig ptz = onvif_config(s, station);
+    const bool is_ptz = station.mount == MountModel::kOnvif && !station.fixed;
+    device.rtsp =
+        std::make_unique<RtspServer>(RtspServerConfig{.address = station.camera_address,
+                                                      .user = is_ptz ? ptz.user : "",
+                                                      .password = is_ptz ? ptz.password : "",
+                                                      .width_px = s.camera.width_px,
+                                                      .height_px = s.camera.height_px,
+                                                      .frame_rate_hz = s.frame_rate_hz,
+                                                      .exposure_s = s.exposure_s,
+                                                      .delay_s = s.readout_s},
+                                     paint);
     return;
   }
   SimulatedCameraConfig camera;

@@ -66,12 +66,20 @@ void write_sd(std::ostream& out, const World& world, const CalibrationSd& sd) {
       << "\n";
 }
 
-void write_camera(std::ostream& out, const Scenario& s, const StationScenario& station) {
+// Of an ONVIF camera, for its motors and for its video.
+void write_login(std::ostream& out, const OnvifConfig& c, const std::string& password_file) {
+  out << "\nuser = " << toml_text(c.user) << "\npassword_file = " << toml_text(password_file);
+}
+
+void write_camera(std::ostream& out, const Scenario& s, const StationScenario& station,
+                  const std::string& password_file) {
   out << "\n[camera]\n";
   if (station.rtsp) {
     out << "kind = \"rtsp\"\nurl = " << toml_text(stream_address(station))
         << "\ndelay_s = " << 0.5 * s.exposure_s + s.readout_s + kEncoder_s
         << "\ndelay_sd_s = " << kEncoder_s;
+    if (station.mount == MountModel::kOnvif && !station.fixed)
+      write_login(out, onvif_config(s, station), password_file);
   } else {
     out << "device = " << toml_text(station.camera_address)
         << "\nexposure_us = " << 1e6 * s.exposure_s << "\nreadout_s = " << s.readout_s;
@@ -84,9 +92,9 @@ void write_camera(std::ostream& out, const Scenario& s, const StationScenario& s
 void write_onvif(std::ostream& out, const OnvifConfig& c, const std::string& password_file) {
   const PtzUnitConfig& unit = c.unit;
   out << "kind = \"onvif\"\nurl = "
-      << toml_text("http://" + c.address + ":" + std::to_string(c.port) + "/onvif/device_service")
-      << "\nuser = " << toml_text(c.user) << "\npassword_file = " << toml_text(password_file)
-      << "\npan_gain_deg = " << degrees(angle_rad(0, 1.0, unit) - angle_rad(0, 0.0, unit))
+      << toml_text("http://" + c.address + ":" + std::to_string(c.port) + "/onvif/device_service");
+  write_login(out, c, password_file);
+  out << "\npan_gain_deg = " << degrees(angle_rad(0, 1.0, unit) - angle_rad(0, 0.0, unit))
       << "\npan_zero_deg = " << degrees(angle_rad(0, 0.0, unit))
       << "\npan_speed_deg_s = " << degrees(full_speed_rad_s(0, unit))
       << "\ntilt_gain_deg = " << degrees(angle_rad(1, 1.0, unit) - angle_rad(1, 0.0, unit))
@@ -98,7 +106,8 @@ void write_onvif(std::ostream& out, const OnvifConfig& c, const std::string& pas
 
 void write_devices(std::ostream& out, const Scenario& s, const StationScenario& station,
                    const std::string& line_folder) {
-  write_camera(out, s, station);
+  const std::string password_file = line_folder + "/" + station.id + ".password";
+  write_camera(out, s, station, password_file);
   out << "\n[mount]\n";
   if (station.fixed) {
     out << "kind = \"fixed\"\npan_deg = " << degrees(station.fixed->pan_rad)
@@ -114,7 +123,7 @@ void write_devices(std::ostream& out, const Scenario& s, const StationScenario& 
     return;
   }
   if (station.mount == MountModel::kOnvif) {
-    write_onvif(out, onvif_config(s, station), line_folder + "/" + station.id + ".password");
+    write_onvif(out, onvif_config(s, station), password_file);
     return;
   }
   out << "device = " << toml_text(line_folder + "/" + station.ptu_line) << "\nbaud = " << s.ptu.baud

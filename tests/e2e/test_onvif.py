@@ -1,12 +1,17 @@
 """The simulated ONVIF PTZ camera, by an independent client: onvif-zeep with its WSDL files."""
 
+import base64
 import math
+import re
+import tarfile
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from urllib.parse import quote
 
 import ols_msg
 import pytest
 import requests
-from conftest import BIN, ROOT, wait
+from conftest import BIN, ROOT, finished, wait
 from helpers import Listener
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site
@@ -147,6 +152,61 @@ def test_faults_are_commanded(password):
     wait(lambda: not reachable(), "its connections to be lost")
     command("all", 0.0)
     wait(reachable, "its connections")
+
+
+def configured(folder, secret):
+    """The configuration of a station with this camera, whose password is in `secret`."""
+    words = ["--scenario", ROOT / "sim/scenarios/onvif.toml", "--lcm-url", LIVE_URL]
+    words += ["--directory", folder / "lines", "--write-configs", folder / "config"]
+    finished(BIN / "ols-sim", *words, "--state-folder", folder / "state", check=True)
+    config = folder / "config/alfa.toml"
+    text, changed = re.subn(
+        r'password_file = ".*"', f'password_file = "{secret}"', config.read_text()
+    )
+    assert changed == 2
+    config.write_text(text)
+    return config
+
+
+def everything_said(folder, config):
+    """By all processes' command lines, and by the doctor's words and bundle."""
+    words = [file.read_bytes() for file in Path("/proc").glob("[0-9]*/cmdline")]
+    bundle = folder / "bundle.tar.gz"
+    doctor = [BIN / "ols-doctor", "--json", "--config", config, "--bundle", bundle]
+    told = finished(*doctor)
+    words += [told.stdout.encode(), told.stderr.encode()]
+    with tarfile.open(bundle) as files:
+        words += [part.read() for one in files if (part := files.extractfile(one)) is not None]
+    return words
+
+
+def test_a_password_is_only_in_its_file(password, tmp_path):
+    """Neither a wrong one nor the right one is in logs, messages, files, reports, command lines."""
+    secret, wrong = tmp_path / "camera-password", "falsch/0815%geheim"
+    secret.write_text(wrong + "\n")
+    config, said, listener = configured(tmp_path, secret), [], Listener()
+    listener.bus.lcm.subscribe(".*", lambda _, data: said.append(bytes(data)))
+
+    def devices_say(words):
+        return all(words in listener.device("alfa", name)[1] for name in ("camera", "ptu"))
+
+    def devices_are(state):
+        return all(listener.device("alfa", name)[0] == state for name in ("camera", "ptu"))
+
+    with Site(tmp_path / "logs") as running:
+        running.start_and_wait("alfa", [str(BIN / "ols-station"), "--config", config], "ready")
+        listener.wait_for_status("alfa")
+        listener.wait(lambda: devices_say("user or password"), "that both refuse the login")
+        said += everything_said(tmp_path, config)
+        secret.write_text(password + "\n")
+        listener.wait(lambda: devices_are(ols_msg.station_status_t.DEVICE_OK), "that both take the login")
+        said += everything_said(tmp_path, config)
+    said += [file.read_bytes() for file in tmp_path.rglob("*") if file.is_file() and file != secret]
+    assert len(said) > 100
+    for one in (wrong, password):
+        login = base64.b64encode(f"{USER}:{one}".encode())  # as HTTP's method Basic has it
+        for form in (one.encode(), quote(one, safe="").encode(), login):
+            assert not [words for words in said if form in words]
 
 
 def offset_s(camera):
