@@ -15,6 +15,7 @@ struct OnvifConfig {
   std::string stream_uri;  // the address of its video, which the camera gives to clients
   int width_px = 1280, height_px = 960;
   double frame_rate_hz = 25.0;
+  std::string encoding = "H264";  // or "H265", which only the service Media2 can name
   PtzUnitConfig unit;
 };
 

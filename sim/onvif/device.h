@@ -61,6 +61,9 @@ class OnvifDevice {
   std::string profiles(pugi::xml_node);
   std::string profile(pugi::xml_node request);
   std::string stream_uri(pugi::xml_node request);
+  std::string media2_capabilities(pugi::xml_node);
+  std::string media2_profiles(pugi::xml_node);
+  std::string media2_stream_uri(pugi::xml_node request);
   std::string ptz_capabilities(pugi::xml_node);
   std::string nodes(pugi::xml_node);
   std::string node(pugi::xml_node request);

@@ -23,24 +23,37 @@ void check_profile(pugi::xml_node request, const char* space) {
   }
 }
 
-std::string profile_text(const OnvifConfig& c, const char* element) {
+// The schema of Media knows no H.265: a camera that sends it has a profile without an encoder
+// there.
+std::string encoder_text(const OnvifConfig& c) {
+  if (c.encoding != "H264") return {};
   return fmt::format(
-      R"(<trt:{0} token="{1}" fixed="true"><tt:Name>{1}</tt:Name>)"
-      R"(<tt:VideoSourceConfiguration token="source"><tt:Name>source</tt:Name>)"
-      R"(<tt:UseCount>1</tt:UseCount><tt:SourceToken>sensor</tt:SourceToken>)"
-      R"(<tt:Bounds x="0" y="0" width="{2}" height="{3}"/></tt:VideoSourceConfiguration>)"
       R"(<tt:VideoEncoderConfiguration token="encoder"><tt:Name>encoder</tt:Name>)"
       R"(<tt:UseCount>1</tt:UseCount><tt:Encoding>H264</tt:Encoding>)"
-      R"(<tt:Resolution><tt:Width>{2}</tt:Width><tt:Height>{3}</tt:Height></tt:Resolution>)"
-      R"(<tt:Quality>5</tt:Quality><tt:RateControl><tt:FrameRateLimit>{4}</tt:FrameRateLimit>)"
+      R"(<tt:Resolution><tt:Width>{0}</tt:Width><tt:Height>{1}</tt:Height></tt:Resolution>)"
+      R"(<tt:Quality>5</tt:Quality><tt:RateControl><tt:FrameRateLimit>{2}</tt:FrameRateLimit>)"
       R"(<tt:EncodingInterval>1</tt:EncodingInterval><tt:BitrateLimit>8000</tt:BitrateLimit>)"
       R"(</tt:RateControl><tt:H264><tt:GovLength>25</tt:GovLength>)"
       R"(<tt:H264Profile>Baseline</tt:H264Profile></tt:H264>)"
       R"(<tt:Multicast><tt:Address><tt:Type>IPv4</tt:Type>)"
       R"(<tt:IPv4Address>0.0.0.0</tt:IPv4Address></tt:Address><tt:Port>0</tt:Port>)"
       R"(<tt:TTL>0</tt:TTL><tt:AutoStart>false</tt:AutoStart></tt:Multicast>)"
-      R"(<tt:SessionTimeout>PT60S</tt:SessionTimeout></tt:VideoEncoderConfiguration>{5}</trt:{0}>)",
-      element, ptz_entity::kProfile, c.width_px, c.height_px, std::lround(c.frame_rate_hz),
+      R"(<tt:SessionTimeout>PT60S</tt:SessionTimeout></tt:VideoEncoderConfiguration>)",
+      c.width_px, c.height_px, std::lround(c.frame_rate_hz));
+}
+
+// `name`: of the element.
+std::string source_text(const OnvifConfig& c, const char* name) {
+  return fmt::format(R"(<{0} token="source"><tt:Name>source</tt:Name><tt:UseCount>1</tt:UseCount>)"
+                     R"(<tt:SourceToken>sensor</tt:SourceToken>)"
+                     R"(<tt:Bounds x="0" y="0" width="{1}" height="{2}"/></{0}>)",
+                     name, c.width_px, c.height_px);
+}
+
+std::string profile_text(const OnvifConfig& c, const char* element) {
+  return fmt::format(
+      R"(<trt:{0} token="{1}" fixed="true"><tt:Name>{1}</tt:Name>{2}{3}{4}</trt:{0}>)", element,
+      ptz_entity::kProfile, source_text(c, "tt:VideoSourceConfiguration"), encoder_text(c),
       ptz_entity::configuration("tt:PTZConfiguration"));
 }
 
@@ -64,6 +77,7 @@ std::string OnvifDevice::services(pugi::xml_node) {
   std::string all;
   for (const auto& [space, path] : {std::pair{onvif_space::kDevice, "device_service"},
                                     {onvif_space::kMedia, "media_service"},
+                                    {onvif_space::kMedia2, "media2_service"},
                                     {onvif_space::kPtz, "ptz_service"}}) {
     all += fmt::format(
         "<tds:Service><tds:Namespace>{}</tds:Namespace><tds:XAddr>{}</tds:XAddr><tds:Version>"
@@ -145,6 +159,36 @@ std::string OnvifDevice::stream_uri(pugi::xml_node request) {
       "<tt:InvalidAfterReboot>false</tt:InvalidAfterReboot><tt:Timeout>PT0S</tt:Timeout>"
       "</trt:MediaUri></trt:GetStreamUriResponse>",
       config_.stream_uri);
+}
+
+std::string OnvifDevice::media2_capabilities(pugi::xml_node) {
+  return R"(<tr2:GetServiceCapabilitiesResponse><tr2:Capabilities>)"
+         R"(<tr2:ProfileCapabilities MaximumNumberOfProfiles="1" )"
+         R"(ConfigurationsSupported="VideoSource VideoEncoder PTZ"/>)"
+         R"(<tr2:StreamingCapabilities RTSPStreaming="true" RTP_RTSP_TCP="true"/>)"
+         R"(</tr2:Capabilities></tr2:GetServiceCapabilitiesResponse>)";
+}
+
+std::string OnvifDevice::media2_profiles(pugi::xml_node) {
+  const std::string encoder = fmt::format(
+      R"(<tr2:VideoEncoder token="encoder"><tt:Name>encoder</tt:Name><tt:UseCount>1</tt:UseCount>)"
+      R"(<tt:Encoding>{}</tt:Encoding><tt:Resolution><tt:Width>{}</tt:Width>)"
+      R"(<tt:Height>{}</tt:Height></tt:Resolution><tt:RateControl>)"
+      R"(<tt:FrameRateLimit>{}</tt:FrameRateLimit><tt:BitrateLimit>8000</tt:BitrateLimit>)"
+      R"(</tt:RateControl><tt:Quality>5</tt:Quality></tr2:VideoEncoder>)",
+      config_.encoding, config_.width_px, config_.height_px, config_.frame_rate_hz);
+  return fmt::format(
+      R"(<tr2:GetProfilesResponse><tr2:Profiles token="{0}" fixed="true"><tr2:Name>{0}</tr2:Name>)"
+      R"(<tr2:Configurations>{1}{2}{3}</tr2:Configurations></tr2:Profiles>)"
+      R"(</tr2:GetProfilesResponse>)",
+      ptz_entity::kProfile, source_text(config_, "tr2:VideoSource"), encoder,
+      ptz_entity::configuration("tr2:PTZ"));
+}
+
+std::string OnvifDevice::media2_stream_uri(pugi::xml_node request) {
+  check_profile(request, onvif_space::kMedia2);
+  return fmt::format("<tr2:GetStreamUriResponse><tr2:Uri>{}</tr2:Uri></tr2:GetStreamUriResponse>",
+                     config_.stream_uri);
 }
 
 }  // namespace ols::sim

@@ -55,12 +55,12 @@ pugi::xml_node child_of(pugi::xml_node parent, std::string_view space, std::stri
 std::string text_of(pugi::xml_node element) { return std::string(trimmed(element.text().get())); }
 
 std::string enveloped(std::string_view body) {
-  return fmt::format(
-      R"(<?xml version="1.0" encoding="UTF-8"?>)"
-      R"(<env:Envelope xmlns:env="{}" xmlns:tt="{}" xmlns:tds="{}" xmlns:trt="{}" xmlns:tptz="{}">)"
-      R"(<env:Body>{}</env:Body></env:Envelope>)",
-      onvif_space::kEnvelope, onvif_space::kSchema, onvif_space::kDevice, onvif_space::kMedia,
-      onvif_space::kPtz, body);
+  return fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>)"
+                     R"(<env:Envelope xmlns:env="{}" xmlns:tt="{}" xmlns:tds="{}" xmlns:trt="{}" )"
+                     R"(xmlns:tr2="{}" xmlns:tptz="{}">)"
+                     R"(<env:Body>{}</env:Body></env:Envelope>)",
+                     onvif_space::kEnvelope, onvif_space::kSchema, onvif_space::kDevice,
+                     onvif_space::kMedia, onvif_space::kMedia2, onvif_space::kPtz, body);
 }
 
 std::string enveloped(const SoapFault& fault) {

@@ -12,6 +12,7 @@ namespace onvif_space {
 constexpr const char* kEnvelope = "http://www.w3.org/2003/05/soap-envelope";
 constexpr const char* kSchema = "http://www.onvif.org/ver10/schema";
 constexpr const char* kDevice = "http://www.onvif.org/ver10/device/wsdl";
+constexpr const char* kMedia2 = "http://www.onvif.org/ver20/media/wsdl";
 constexpr const char* kMedia = "http://www.onvif.org/ver10/media/wsdl";
 constexpr const char* kPtz = "http://www.onvif.org/ver20/ptz/wsdl";
 }  // namespace onvif_space

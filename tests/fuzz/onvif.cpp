@@ -33,7 +33,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   attempt([&] { static_cast<void>(onvif::date_and_time(answer)); });
   attempt([&] { static_cast<void>(onvif::device_information(answer)); });
   attempt([&] { static_cast<void>(onvif::services(answer)); });
-  attempt([&] { static_cast<void>(onvif::profiles(answer)); });
+  attempt([&] { static_cast<void>(onvif::listed_services(answer)); });
+  for (const auto& read : {onvif::profiles, onvif::media2_profiles})
+    attempt([&] {
+      for (const onvif::Profile& profile : read(answer))
+        ols::fuzz::require(!profile.token.empty() && std::isfinite(profile.frame_rate_hz),
+                           "a profile has a token and a finite rate");
+    });
   for (const auto& read : {onvif::options, onvif::node_options})
     attempt([&] {
       const onvif::PtzOptions options = read(answer);
@@ -47,10 +53,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         "a position is finite");
   });
   attempt([&] { onvif::check_done(answer, "Stop"); });
-  attempt([&] {
-    const std::string url = onvif::stream_address("http://cam/d", onvif::stream_uri(answer));
-    ols::fuzz::require(url.empty() || onvif::host_of(url) == "cam", "a stream is at the camera");
-  });
+  for (const auto& read : {onvif::stream_uri, onvif::media2_stream_uri})
+    attempt([&] {
+      const std::string url = onvif::stream_address("http://cam/d", read(answer));
+      ols::fuzz::require(url.empty() || onvif::host_of(url) == "cam", "a stream is at the camera");
+    });
   onvif::Discovery discovery("urn:uuid:1");
   discovery.add(answer, "10.0.0.5");
   for (const auto& camera : discovery.cameras())

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/process/clocks.h"
 #include "edge/mount/onvif/service_address.h"
@@ -91,7 +92,39 @@ std::vector<Profile> OnvifLink::read_profiles() {
   has_ptz_ = !services.ptz.empty();
   ptz_url_ = service_address(url_, services.ptz);
   media_url_ = service_address(url_, services.media);
-  return profiles(ask(media_url_, get_profiles()).answer);
+  try {
+    return profiles(ask(media_url_, get_profiles()).answer);
+  } catch (const AnswerError&) {  // it has Media2 alone
+    if (!services.media.empty()) throw;
+  }
+  return {};
+}
+
+// Only Media2 names H.265. If a camera has none, or gives no usable answer, what Media has stated
+// stands.
+void OnvifLink::add_media2(std::vector<Profile>& profiles) try {
+  const Services services = listed_services(ask(url_, get_services()).answer);
+  if (services.media2.empty()) return;
+  media2_url_ = service_address(url_, services.media2);
+  for (const Profile& profile : media2_profiles(ask(media2_url_, get_media2_profiles()).answer)) {
+    const auto known = std::ranges::find(profiles, profile.token, &Profile::token);
+    if (known == profiles.end()) {
+      profiles.push_back(profile);
+    } else if (known->encoding != profile.encoding && !profile.encoding.empty()) {
+      const auto [configuration, node] = std::pair{known->configuration, known->node};
+      *known = profile;
+      if (profile.configuration.empty()) known->configuration = configuration, known->node = node;
+    }
+  }
+} catch (const AnswerError&) {
+  return;
+}
+
+std::string OnvifLink::read_stream(const Profile& profile) {
+  const std::string& token = profile.token;
+  if (profile.of_media2)
+    return media2_stream_uri(ask(media2_url_, get_media2_stream_uri(token)).answer);
+  return stream_uri(ask(media_url_, get_stream_uri(token)).answer);
 }
 
 std::string OnvifLink::read_device() {
@@ -134,11 +167,15 @@ void OnvifLink::stop_first(const Access& earlier) {
 }
 
 Learnt OnvifLink::learn(const std::string& wanted) {
-  const auto all = read_profiles();
+  auto all = read_profiles();
   if (!has_ptz_) throw AnswerError("the camera has no PTZ service");
-  const auto found = std::ranges::find_if(all, [&](const Profile& profile) {
-    return wanted.empty() ? !profile.configuration.empty() : profile.token == wanted;
-  });
+  const auto find = [&] {
+    return std::ranges::find_if(all, [&](const Profile& profile) {
+      return wanted.empty() ? !profile.configuration.empty() : profile.token == wanted;
+    });
+  };
+  if (find() == all.end()) add_media2(all);
+  const auto found = find();
   if (found == all.end() || found->configuration.empty())
     throw AnswerError(wanted.empty() ? "the camera has no profile with PTZ"
                                      : "the camera has no profile " + wanted + " with PTZ");
@@ -148,9 +185,10 @@ Learnt OnvifLink::learn(const std::string& wanted) {
 
 Offer OnvifLink::offer() {
   Offer offer;
-  for (const Profile& profile : read_profiles()) {
-    const std::string stated = stream_uri(ask(media_url_, get_stream_uri(profile.token)).answer);
-    Offer::Stream stream{profile, stream_address(url_, stated), {}};
+  auto all = read_profiles();
+  add_media2(all);
+  for (const Profile& profile : all) {
+    Offer::Stream stream{profile, stream_address(url_, read_stream(profile)), {}};
     if (stream.url.empty()) continue;
     try {
       if (has_ptz_ && !profile.configuration.empty()) stream.ptz = read_options(profile);

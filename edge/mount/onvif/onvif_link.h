@@ -81,6 +81,8 @@ class OnvifLink {
   HttpLink::Answer post(const std::string& url, const Request& request);
   void read_clock();
   std::vector<Profile> read_profiles();
+  void add_media2(std::vector<Profile>& profiles);
+  std::string read_stream(const Profile& profile);
   std::string read_device();
   PtzOptions read_options(const Profile& profile);
   void order_stop(const std::string& profile);
@@ -88,7 +90,7 @@ class OnvifLink {
   HttpLink http_;
   const std::string url_;
   const Credentials credentials_;
-  std::string ptz_url_, media_url_;
+  std::string ptz_url_, media_url_, media2_url_;
   bool has_ptz_ = false;
   Login login_ = Login::kNone;
   bool logged_in_ = false;  // the camera has accepted the login on this connection

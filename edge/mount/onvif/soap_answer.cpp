@@ -5,6 +5,7 @@
 #include <ctime>
 #include <pugixml.hpp>
 #include <string_view>
+#include <utility>
 
 #include "edge/mount/onvif/soap_xml.h"
 
@@ -159,16 +160,30 @@ Services services(const std::string& text) {
   return {text_of(child(child(all, "Media"), "XAddr")), text_of(child(child(all, "PTZ"), "XAddr"))};
 }
 
+Services listed_services(const std::string& text) {
+  const Answer answer(text, "GetServices");
+  Services services;
+  for (const Node& node : answer.response().children()) {
+    const std::string space = text_of(child(node, "Namespace"));
+    for (const auto& [of, address] :
+         {std::pair{"http://www.onvif.org/ver10/media/wsdl", &services.media},
+          {"http://www.onvif.org/ver20/media/wsdl", &services.media2},
+          {"http://www.onvif.org/ver20/ptz/wsdl", &services.ptz}}) {
+      if (space == of) *address = text_of(child(node, "XAddr"));
+    }
+  }
+  return services;
+}
+
 namespace {
 
-Profile profile(const Answer& answer, const Node& node) {
-  const Node ptz = child(node, "PTZConfiguration");
+// `ptz`, `video`: the profile's configurations.
+Profile profile(const Answer& answer, const Node& node, const Node& ptz, const Node& video) {
   Profile profile;
   profile.token = answer.token(node);
   if (ptz) profile.configuration = answer.token(ptz);
   profile.node = text_of(child(ptz, "NodeToken"));
   if (profile.node.size() > kLongestToken) profile.node.clear();
-  const Node video = child(node, "VideoEncoderConfiguration");
   profile.encoding = words(text_of(child(video, "Encoding")));
   const auto stated = [&](const Node& parent, const char* name) {
     const std::string text = text_of(child(parent, name));
@@ -181,25 +196,51 @@ Profile profile(const Answer& answer, const Node& node) {
   return profile;
 }
 
-}  // namespace
-
-std::vector<Profile> profiles(const std::string& text) {
+// `read`: reads the profile in a node.
+std::vector<Profile> profiles_in(const std::string& text,
+                                 Profile (*read)(const Answer& answer, const Node& node)) {
   const Answer answer(text, "GetProfiles");
   std::vector<Profile> profiles;
   for (const Node& node : answer.response().children()) {
     if (local(node.name()) != "Profiles") continue;
     if (profiles.size() == kMostProfiles) throw answer.wrong("too many profiles");
-    profiles.push_back(profile(answer, node));
+    profiles.push_back(read(answer, node));
   }
   return profiles;
 }
 
-std::string stream_uri(const std::string& text) {
-  const Answer answer(text, "GetStreamUri");
-  const std::string uri =
-      text_of(answer.required(answer.required(answer.response(), "MediaUri"), "Uri"));
+std::string uri_in(const Answer& answer, const Node& parent) {
+  const std::string uri = text_of(answer.required(parent, "Uri"));
   if (uri.empty() || uri.size() > kLongestAddress) throw answer.wrong("no usable Uri");
   return uri;
+}
+
+}  // namespace
+
+std::vector<Profile> profiles(const std::string& text) {
+  return profiles_in(text, [](const Answer& answer, const Node& node) {
+    return profile(answer, node, child(node, "PTZConfiguration"),
+                   child(node, "VideoEncoderConfiguration"));
+  });
+}
+
+std::string stream_uri(const std::string& text) {
+  const Answer answer(text, "GetStreamUri");
+  return uri_in(answer, answer.required(answer.response(), "MediaUri"));
+}
+
+std::vector<Profile> media2_profiles(const std::string& text) {
+  return profiles_in(text, [](const Answer& answer, const Node& node) {
+    const Node all = child(node, "Configurations");
+    Profile stated = profile(answer, node, child(all, "PTZ"), child(all, "VideoEncoder"));
+    stated.of_media2 = true;
+    return stated;
+  });
+}
+
+std::string media2_stream_uri(const std::string& text) {
+  const Answer answer(text, "GetStreamUri");
+  return uri_in(answer, answer.response());
 }
 
 namespace {

@@ -45,10 +45,11 @@ struct Profile {
   // Size and rate of the video's pictures; 0 if not stated.
   int width_px = 0, height_px = 0;
   double frame_rate_hz = 0.0;
+  bool of_media2 = false;  // stated by Media2, which is then asked for the stream, too
 };
 
 struct Services {
-  std::string media, ptz;  // addresses; empty if there is no such service
+  std::string media, ptz, media2{};  // addresses; empty if there is no such service
 };
 
 struct PtzStatus : mount::Vector {
@@ -61,8 +62,13 @@ struct PtzStatus : mount::Vector {
 std::optional<std::int64_t> date_and_time(const std::string& answer);
 std::string device_information(const std::string& answer);  // maker and model
 Services services(const std::string& answer);
+// The answer to GetServices, which lists Media2.
+Services listed_services(const std::string& answer);
 std::vector<Profile> profiles(const std::string& answer);
 std::string stream_uri(const std::string& answer);
+// The same of the service Media2.
+std::vector<Profile> media2_profiles(const std::string& answer);
+std::string media2_stream_uri(const std::string& answer);
 PtzOptions options(const std::string& answer);
 // The options in the answer to a request for a node, which contains no time-outs.
 PtzOptions node_options(const std::string& answer);

@@ -13,6 +13,7 @@ namespace {
 
 const std::string kDevice = "http://www.onvif.org/ver10/device/wsdl";
 const std::string kMedia = "http://www.onvif.org/ver10/media/wsdl";
+const std::string kMedia2 = "http://www.onvif.org/ver20/media/wsdl";
 const std::string kPtz = "http://www.onvif.org/ver20/ptz/wsdl";
 
 std::string escaped(const std::string& text) {
@@ -111,6 +112,9 @@ Request get_device_information() { return request(kDevice, "GetDeviceInformation
 Request get_capabilities() {
   return request(kDevice, "GetCapabilities", element("Category", "All"));
 }
+Request get_services() {
+  return request(kDevice, "GetServices", element("IncludeCapability", "false"));
+}
 Request get_profiles() { return request(kMedia, "GetProfiles"); }
 Request get_stream_uri(const std::string& profile) {
   const std::string schema = " xmlns=\"http://www.onvif.org/ver10/schema\">";
@@ -118,6 +122,11 @@ Request get_stream_uri(const std::string& profile) {
                  "<StreamSetup><Stream" + schema + "RTP-Unicast</Stream><Transport" + schema +
                      "<Protocol>RTSP</Protocol></Transport></StreamSetup>" +
                      element("ProfileToken", escaped(profile)));
+}
+Request get_media2_profiles() { return request(kMedia2, "GetProfiles", element("Type", "All")); }
+Request get_media2_stream_uri(const std::string& profile) {
+  return request(kMedia2, "GetStreamUri",
+                 element("Protocol", "RTSP") + element("ProfileToken", escaped(profile)));
 }
 Request get_options(const std::string& configuration) {
   return request(kPtz, "GetConfigurationOptions",

@@ -26,8 +26,12 @@ using mount::Vector;
 Request get_system_date_and_time();
 Request get_device_information();
 Request get_capabilities();
+Request get_services();
 Request get_profiles();
 Request get_stream_uri(const std::string& profile);
+// The same of the service Media2 (ONVIF profile T).
+Request get_media2_profiles();
+Request get_media2_stream_uri(const std::string& profile);
 Request get_options(const std::string& configuration);
 // Asks for a PTZ node. `node`: the token that the PTZ configuration states (Profile::node).
 Request get_node(const std::string& node);

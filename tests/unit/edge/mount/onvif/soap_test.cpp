@@ -103,6 +103,35 @@ TEST(OnvifAnswer, ProfilesServicesAndTheClockAreRead) {
   EXPECT_EQ(date_and_time(envelope_of(clock)), 1284623445);
 }
 
+// As the service Media2 has it (ONVIF Media Service Specification 2.x, section 5).
+TEST(OnvifAnswer, Media2TellsItsProfilesAndTheirStreams) {
+  const auto profiles = media2_profiles(envelope_of(
+      R"(<tr2:GetProfilesResponse><tr2:Profiles token="a&amp;b" fixed="true"><tr2:Name>1</tr2:Name>
+      <tr2:Configurations><tr2:VideoEncoder token="e"><tt:Encoding>H265</tt:Encoding><tt:Resolution>
+      <tt:Width>2560</tt:Width><tt:Height>1440</tt:Height></tt:Resolution><tt:RateControl>
+      <tt:FrameRateLimit>12.5</tt:FrameRateLimit></tt:RateControl></tr2:VideoEncoder>
+      <tr2:PTZ token="p"><tt:NodeToken>n</tt:NodeToken></tr2:PTZ></tr2:Configurations>
+      </tr2:Profiles><tr2:Profiles token="bare"/></tr2:GetProfilesResponse>)"));
+  ASSERT_EQ(profiles.size(), 2);
+  EXPECT_EQ(profiles[0].token, "a&b");
+  EXPECT_EQ(profiles[0].encoding, "H265");
+  EXPECT_EQ(profiles[0].width_px, 2560);
+  EXPECT_EQ(profiles[0].frame_rate_hz, 12.5);
+  EXPECT_EQ(profiles[0].configuration, "p");
+  EXPECT_EQ(profiles[0].node, "n");
+  EXPECT_TRUE(profiles[0].of_media2);
+  EXPECT_EQ(profiles[1].encoding + profiles[1].configuration, "");
+  EXPECT_EQ(media2_stream_uri(envelope_of("<GetStreamUriResponse><Uri>rtsp://h/v</Uri>"
+                                          "</GetStreamUriResponse>")),
+            "rtsp://h/v");
+  const Services services = listed_services(envelope_of(
+      R"(<GetServicesResponse><Service><Namespace>http://www.onvif.org/ver20/media/wsdl</Namespace>
+      <XAddr>http://h/m2</XAddr></Service><Service><Namespace>urn:other</Namespace><XAddr>x</XAddr>
+      </Service></GetServicesResponse>)"));
+  EXPECT_EQ(services.media2, "http://h/m2");
+  EXPECT_EQ(services.media + services.ptz, "");
+}
+
 TEST(OnvifAnswer, BadInputIsRefusedByName) {
   const std::string zoom = "<Position><PanTilt x=\"0\" y=\"0\"/><Zoom x=\"-0.1\"/></Position>";
   struct Case {
