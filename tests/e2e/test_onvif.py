@@ -1,8 +1,12 @@
-"""The simulated ONVIF PTZ camera, by an independent client: onvif-zeep with its WSDL files."""
+"""The simulated ONVIF PTZ camera, by independent clients: onvif-zeep and onvif-python, each with
+its own WSDL files."""
 
 import base64
+import json
 import math
+import os
 import re
+import sys
 import tarfile
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -19,6 +23,7 @@ from onvif import ONVIFCamera, ONVIFError
 from requests.auth import HTTPDigestAuth
 
 ADDRESS, PORT, USER = "127.0.0.11", 8080, "admin"
+ONVIF_PYTHON = ROOT / "build/onvif-python"  # by tools/install-dependencies
 FULL_DEG = 170.0  # of pan, at -1 of the generic space
 
 
@@ -154,6 +159,22 @@ def test_faults_are_commanded(password):
     wait(reachable, "its connections")
 
 
+def test_another_client_understands_it_also_by_media2(password):
+    client = [sys.executable, ROOT / "tests/e2e/onvif_python_client.py"]
+    search = {**os.environ, "PYTHONPATH": str(ONVIF_PYTHON)}
+    done = finished(*client, ADDRESS, PORT, USER, password, env=search)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout) == {
+        "model": "Simulated PTZ",
+        "tokens": ["main", "main"],
+        "encodings": ["H264", "H264"],
+        "width": 640,
+        "ptz": True,
+        "stream": f"rtsp://{ADDRESS}:8554/video",
+        "goes": True,
+    }
+
+
 def configured(folder, secret):
     """The configuration of a station with this camera, whose password is in `secret`."""
     words = ["--scenario", ROOT / "sim/scenarios/onvif.toml", "--lcm-url", LIVE_URL]
@@ -199,7 +220,9 @@ def test_a_password_is_only_in_its_file(password, tmp_path):
         listener.wait(lambda: devices_say("user or password"), "that both refuse the login")
         said += everything_said(tmp_path, config)
         secret.write_text(password + "\n")
-        listener.wait(lambda: devices_are(ols_msg.station_status_t.DEVICE_OK), "that both take the login")
+        listener.wait(
+            lambda: devices_are(ols_msg.station_status_t.DEVICE_OK), "that both take the login"
+        )
         said += everything_said(tmp_path, config)
     said += [file.read_bytes() for file in tmp_path.rglob("*") if file.is_file() and file != secret]
     assert len(said) > 100
