@@ -14,11 +14,13 @@ constexpr int kSteps = 120;
 // The land model is wrong by some metres, so a target may vanish earlier than expected.
 constexpr double kLead_s = 1.0;
 
-std::vector<Position> path_of(const Track& track, std::int64_t now_us) {
+std::vector<Position> path_of(const Track& track, const PathSpread& spread, std::int64_t now_us) {
   std::vector<Position> path;
   for (int i = 0; i < kSteps; ++i) {
-    const KinematicState state = track.filter.at(now_us + std::llround(1e6 * kStep_s * i));
-    path.push_back({state.mean.head<3>(), state.covariance.topLeftCorner<3, 3>()});
+    const double lead_s = kStep_s * i;
+    const KinematicState state = track.filter.at(now_us + std::llround(1e6 * lead_s));
+    path.push_back(
+        {state.mean.head<3>(), spread.factor(lead_s) * state.covariance.topLeftCorner<3, 3>()});
   }
   return path;
 }
@@ -48,13 +50,20 @@ std::vector<OcclusionNotice> OcclusionSchedule::plan(std::int64_t now_us,
                                                      const SeenSkylines& skylines) {
   std::vector<OcclusionNotice> notices;
   if (!surface_) return notices;
+  std::erase_if(spreads_, [&](const auto& one) {
+    return std::ranges::find(tracks, one.first, &Track::id) == tracks.end();
+  });
   std::map<std::int64_t, std::vector<Position>> paths;
   for (const Slew& slew : slews) {
     const auto track = std::ranges::find(tracks, slew.target_id, &Track::id);
     const auto station = stations.all().find(slew.station);
     if (slew.target_id == 0 || track == tracks.end() || station == stations.all().end()) continue;
     auto& path = paths[slew.target_id];
-    if (path.empty()) path = path_of(*track, now_us);
+    if (path.empty()) {
+      PathSpread& spread = spreads_[slew.target_id];
+      spread.note(track->filter, now_us);
+      path = path_of(*track, spread, now_us);
+    }
     Told& told = told_[slew.station];
     const Eigen::Vector3d& camera_ecef = station->second.traits.camera_ecef;
     const auto occlusion = occlusion_ahead(horizon_of(told, camera_ecef), path, kStep_s, kLead_s,

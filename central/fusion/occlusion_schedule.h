@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "central/admission/station_registry.h"
+#include "central/fusion/path_spread.h"
 #include "central/fusion/slew_planner.h"
 #include "central/ground/land_horizon.h"
 #include "central/ground/occlusion.h"
@@ -39,7 +40,10 @@ class OcclusionSchedule {
                                     const StationRegistry& stations,
                                     const std::vector<Track>& tracks, const SeenSkylines& skylines);
   void forget(const std::string& station) { told_.erase(station); }
-  void clear() { told_.clear(); }
+  void clear() {
+    told_.clear();
+    spreads_.clear();
+  }
 
  private:
   struct Told {
@@ -50,6 +54,7 @@ class OcclusionSchedule {
 
   std::shared_ptr<const land::Surface> surface_;
   std::map<std::string, Told> told_;
+  std::map<std::int64_t, PathSpread> spreads_;  // by target
 };
 
 }  // namespace ols::fusion

@@ -148,19 +148,20 @@ class Looks {
   std::vector<double> crests_m_;  // of the nearest land that may hide the mean path, or its horizon
 };
 
-// The instant at which the target is most probably hidden, in the first occlusion that begins
-// before `lead`. A low probability suffices: a station uses the answer only once it no longer sees
-// the target, and then an unlikely occlusion has become likely.
+// An instant in the midst of the first occlusion that begins before `lead`: the earliest at which
+// the target is about as probably hidden as ever in this occlusion. The occlusion has ended when
+// this probability has fallen by half. A low probability suffices: a station uses the answer only
+// once it no longer sees the target, and then an unlikely occlusion has become likely.
 std::optional<std::size_t> midst(const Looks& looks, std::size_t lead) {
-  constexpr double kPossible = 0.05;
+  constexpr double kPossible = 0.05, kAbout = 0.9, kEnded = 0.5;
   std::size_t first = 0;
   while (first < std::min(lead, looks.size()) && looks.hidden(first) < kPossible) ++first;
   if (first >= std::min(lead, looks.size())) return std::nullopt;
-  std::size_t most = first;
-  for (std::size_t i = first; i < looks.size() && looks.hidden(i) >= kPossible; ++i) {
-    if (looks.hidden(i) > looks.hidden(most)) most = i;
-  }
-  return most;
+  double most = kPossible;
+  for (std::size_t i = first; i < looks.size() && looks.hidden(i) >= kEnded * most; ++i)
+    most = std::max(most, looks.hidden(i));
+  while (looks.hidden(first) < kAbout * most) ++first;
+  return first;
 }
 
 struct Out {  // of one sample

@@ -95,6 +95,24 @@ TEST(Occlusion, IsEndingWhileItMayStillBeHidden) {
   EXPECT_LT(found->exit->in_s, 0.5);
 }
 
+// Two walls with a gap of 4 m, which the target crosses at the double distance. In its middle the
+// target is still hidden with a probability of 0.15. The next exit is the gap, not the end of the
+// second wall, although the target is more surely hidden behind that.
+TEST(Occlusion, EndsAtAGapThatIsProbablyWideEnough) {
+  const auto land = std::make_shared<const Land>([](double east_m, double north_m) {
+    const bool gap = north_m > 50.0 && north_m < 54.0;
+    return std::abs(east_m - 500.0) < 10.0 && north_m > -50.0 && north_m < 150.0 && !gap ? 50.0
+                                                                                         : 0.0;
+  });
+  LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});
+  const auto path = straight(*land, {1000.0, 96.5, 20.0}, {0.0, 10.0, 0.0});
+  const auto found = occlusion_ahead(horizon, path, kStep_s, kLead_s);
+  ASSERT_TRUE(found && found->exit);
+  EXPECT_GT(found->hidden, 0.9);
+  EXPECT_LT(found->hidden, 1.0);
+  EXPECT_NEAR(found->exit->in_s, (50.0 / 490.0 * 1000.0 - 96.5) / 10.0, 0.3);
+}
+
 // A house's outline is known to a metre. So what stays 1 m beside a house 50 m away is hidden with
 // a probability of 0.16.
 TEST(Occlusion, MayBeBehindAHouseThatIsAMetreBesideIt) {
