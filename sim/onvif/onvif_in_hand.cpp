@@ -62,7 +62,13 @@ std::string OnvifInHand::ask(const onvif::Request& request) {
 
 void OnvifInHand::connect(double now_s) {
   device_s_ = std::max(device_s_, now_s);
-  drive_.connected(onvif::options(ask(onvif::get_options("motion"))));
+  const std::string answer = ask(onvif::get_options("motion"));
+  lost_ = answer.empty();
+  if (lost_) {
+    again_s_ = now_s + kReconnect_s;
+  } else {
+    drive_.connected(onvif::options(answer));
+  }
 }
 
 onvif::Request OnvifInHand::request_of(const mount::Order& order) const {
@@ -78,8 +84,8 @@ void OnvifInHand::advance(double now_s) {
   if (pending_) finish(now_s);
   if (lost_) {
     if (wire.cut) return;
-    lost_ = false;
     connect(now_s);
+    if (lost_) return;
   }
   const mount::Order order = drive_.next(now_s);
   if (order.act != Act::kWait) send(order, now_s);

@@ -30,7 +30,9 @@ constexpr double kRateStep_rad_s = radians(0.1);
 constexpr double kRateShare = 0.05;   // a smaller change of rate waits for the renewal
 constexpr double kRenew = 1.0 / 3.0;  // of the lease: a motion is then renewed
 constexpr double kLastPiece_rad = radians(2.0);
+constexpr double kWay_s = 4.0;            // until a move to a position is judged
 constexpr double kAbsoluteAgain_s = 5.0;  // a place that was not reached is ordered again
+constexpr double kPictureLate_s = 1.0;    // at most, in relation to the orders
 
 double position_of(const AxisScale& scale, double angle_rad) {
   return (angle_rad - scale.zero_rad) / scale.per_unit_rad;
@@ -77,8 +79,20 @@ void Drive::connected(const Moves& moves) {
 
 void Drive::lost() {
   goal_.reset();
+  was_lost_ = true;
+  if (motion_ != Motion::kNone) {
+    rest_.reset();
+    if (!seen_.empty()) may_be_in_ = spanned(seen_.back().angles, end_of_motion());
+  }
   seen_.clear();
-  if (motion_ != Motion::kNone) rest_.reset();  // where it went is unknown
+}
+
+// Where the mount comes to rest if nothing more is ordered and it keeps the time-out.
+PanTilt Drive::end_of_motion() const {
+  if (motion_ == Motion::kAbsolute) return absolute_;
+  const PanTilt& at = seen_.back().angles;
+  const double lasts_s = config_.lease_s + kComesToRest_s;
+  return {at.pan_rad + rate_.pan_rad * lasts_s, at.tilt_rad + rate_.tilt_rad * lasts_s};
 }
 
 void Drive::set_goal(const std::optional<Goal>& goal) { goal_ = emergency_ ? std::nullopt : goal; }
@@ -203,6 +217,7 @@ void Drive::done(const Order& order, double now_s) {
     stop_s_ = now_s;
     stop_wanted_ = false;
     motion_ = Motion::kNone;
+    way_.reset();
     rate_ = {};
     intake_.ordered(rate_, now_s);
     if (!rests_since_s_) rests_since_s_ = now_s;
@@ -213,9 +228,12 @@ void Drive::done(const Order& order, double now_s) {
   arrived_s_.reset();
   rest_.reset();
   unstopped_s_.reset();
+  may_be_in_.reset();
   picture_rested_ = false;
   picture_moved_since_s_.reset();
   stops_ = 0;
+  if (order.act == Act::kAbsolute) begin_way(now_s);
+  if (order.act == Act::kVelocity) way_.reset();
   ordered_s_ = now_s;
   moved_for_s_ = seen_.empty() ? 0.0 : seen_.back().time_s;
   if (order.act == Act::kVelocity) {
@@ -253,12 +271,14 @@ void Drive::take(const Vector& position, double sent_s, double answered_s) {
   if (motion_ == Motion::kAbsolute && !goes && !arrived_s_) arrived_s_ = now_s;
   add_travel(pan_travel_, rate_.pan_rad, angles.pan_rad, now_s);
   add_travel(tilt_travel_, rate_.tilt_rad, angles.tilt_rad, now_s);
+  judge_way(angles, now_s);
+  judge_place_after_loss(angles, now_s);
   judge_rest(now_s);
 }
 
 void Drive::add_travel(Travel& travel, double rate_rad_s, double angle_rad, double now_s) {
   const int sign = rate_rad_s > 0.0 ? 1 : rate_rad_s < 0.0 ? -1 : 0;
-  if (sign != travel.sign) travel = {now_s, 0.0, angle_rad, sign};
+  if (sign != travel.sign) travel = {now_s, 0.0, angle_rad, sign, now_s};
   if (sign == 0 || seen_.size() < 2) return;
   if (now_s - travel.since_s < kTurns_s) {
     travel.from_rad = angle_rad;
@@ -270,17 +290,74 @@ void Drive::add_travel(Travel& travel, double rate_rad_s, double angle_rad, doub
   if (now_s - travel.since_s < least_s || std::abs(travel.ordered_rad) < kTravel_rad) return;
   distrusted_ = false;
   judge_travel(travel, angle_rad, now_s);
-  travel = {now_s, 0.0, angle_rad, sign};
+  travel = {now_s, 0.0, angle_rad, sign, travel.begun_s};
 }
 
 void Drive::judge_travel(const Travel& travel, double angle_rad, double now_s) {
-  if ((angle_rad - travel.from_rad) / travel.ordered_rad >= kTravelShare) return;
+  if ((angle_rad - travel.from_rad) / travel.ordered_rad >= kTravelShare)
+    return judge_pictures_of_motion(travel.begun_s, std::abs(travel.ordered_rad), now_s);
   distrusted_ = true;
-  ++counters_.orders_ignored;
   ignored_s_ = now_s;
+  give_up_motion(now_s);
+}
+
+void Drive::give_up_motion(double now_s) {
+  ++counters_.orders_ignored;
   refused_until_s_ = now_s + kRefused_s;
   stop_wanted_ = true;
   stops_ = 0;
+}
+
+// A mount that has not moved since an earlier order is judged from that order on: goals may follow
+// each other faster than a move is judged.
+void Drive::begin_way(double now_s) {
+  if (seen_.empty()) return;
+  const PanTilt& at = seen_.back().angles;
+  if (!way_ || distance(at, way_->from) > seen_motion_rad()) way_ = Way{now_s, at};
+}
+
+// Some mounts accept a move to a position and stay, or report that they stay.
+void Drive::judge_way(const PanTilt& angles, double now_s) {
+  if (!way_ || now_s - way_->since_s < kWay_s) return;
+  const Way way = *std::exchange(way_, std::nullopt);
+  const double way_rad = distance(absolute_, way.from);
+  if (way_rad < 2.0 * seen_motion_rad()) return;
+  const double went_rad = way_rad - distance(absolute_, angles);
+  distrusted_ = went_rad < std::min(kTravelShare * way_rad, kTravel_rad);
+  if (!distrusted_) return judge_pictures_of_motion(way.since_s, went_rad, now_s);
+  ignored_s_ = now_s;
+  give_up_motion(now_s);
+}
+
+// Positions that follow an order although the pictures stand are wrong. The pictures may be late.
+void Drive::judge_pictures_of_motion(double since_s, double way_rad, double now_s) {
+  const bool at_once = motion_ == Motion::kAbsolute;  // and the mount may be there in a second
+  contradicted_ =
+      picture_.stood(since_s + (at_once ? 0.0 : kPictureLate_s), kTravelShare * way_rad);
+  if (contradicted_) give_up_motion(now_s);
+}
+
+// A mount that has started anew is in its home position, or on the way to it.
+void Drive::judge_place_after_loss(const PanTilt& angles, double now_s) {
+  const double most_rad = 2.0 * seen_motion_rad();
+  const auto within = [most_rad](double angle_rad, double min_rad, double max_rad) {
+    return angle_rad > min_rad - most_rad && angle_rad < max_rad + most_rad;
+  };
+  if (std::exchange(was_lost_, false)) {
+    const auto box = may_be_in_ ? may_be_in_
+                     : rest_    ? std::optional(spanned(*rest_, *rest_))
+                                : std::nullopt;
+    may_be_in_.reset();
+    if (box && !(within(angles.pan_rad, box->pan_min_rad, box->pan_max_rad) &&
+                 within(angles.tilt_rad, box->tilt_min_rad, box->tilt_max_rad))) {
+      displaced_ = true;
+      displaced_s_ = displaced_since_s_ = now_s;
+      rest_.reset();
+      ++counters_.moved_unconnected;
+    }
+  }
+  if (moves()) displaced_since_s_ = now_s;
+  if (now_s - displaced_since_s_ > kComesToRest_s) displaced_ = false;
 }
 
 // Without an order, the mount must stay where it came to rest.
@@ -329,7 +406,7 @@ void Drive::move_in_picture(double time_s, bool moved_before) {
 void Drive::judge_positions(double time_s) {
   if (!picture_moved_since_s_ || time_s - *picture_moved_since_s_ < kOldPosition_s) return;
   picture_moved_since_s_.reset();
-  if (distance(seen_.back().angles, picture_rest_) < seen_motion_rad()) distrusted_ = true;
+  if (distance(seen_.back().angles, picture_rest_) < seen_motion_rad()) contradicted_ = true;
 }
 
 std::vector<Alarm> Drive::alarms(double now_s) const {
@@ -337,6 +414,8 @@ std::vector<Alarm> Drive::alarms(double now_s) const {
   const auto holds = [now_s](const std::optional<double>& seen_s) {
     return seen_s && now_s - *seen_s < kAlarm_s;
   };
+  if (holds(displaced_s_)) alarms.push_back(alarm::ptu_moved_unconnected());
+  if (contradicted_) alarms.push_back(alarm::ptu_positions_contradict_pictures());
   if (holds(unordered_s_)) {
     alarms.push_back(alarm::ptu_moves_unordered());
   } else if (holds(picture_moved_s_)) {

@@ -89,10 +89,12 @@ class Drive {
   // reported positions do not.
   void see(const SeenTurn& turn);
 
-  // The samples since the last call; none while the reported positions do not follow the orders.
+  // The samples since the last call. There are none while the reported positions do not follow the
+  // orders or contradict the pictures, nor, after a motion without a connection, before the mount
+  // has come to rest.
   std::vector<AngleSample> take_samples() {
     auto samples = intake_.take();
-    if (distrusted_) samples.clear();
+    if (distrusted_ || contradicted_ || displaced_) samples.clear();
     return samples;
   }
   const Limits& limits() const { return limits_; }
@@ -105,6 +107,7 @@ class Drive {
 
   struct Counters {
     std::uint64_t stops_repeated = 0, unordered_motions = 0, orders_ignored = 0, emergencies = 0;
+    std::uint64_t moved_unconnected = 0;     // motions while there was no connection
     std::uint64_t unordered_in_picture = 0;  // motions without an order that the pictures showed
   };
   const Counters& counters() const { return counters_; }
@@ -119,6 +122,12 @@ class Drive {
   struct Travel {
     double since_s = 0.0, ordered_rad = 0.0, from_rad = 0.0;
     int sign = 0;
+    double begun_s = 0.0;  // of the motion in this direction; since_s is that of its last part
+  };
+  // An ordered move to a position that is not judged yet.
+  struct Way {
+    double since_s;
+    PanTilt from;
   };
 
   bool moves_since(double time_s) const;
@@ -130,8 +139,14 @@ class Drive {
   Order motion(double now_s);
   std::optional<Order> last_piece(double now_s) const;
   PanTilt angles_now(double now_s) const;
+  PanTilt end_of_motion() const;
   void add_travel(Travel& travel, double rate_rad_s, double angle_rad, double now_s);
   void judge_travel(const Travel& travel, double angle_rad, double now_s);
+  void begin_way(double now_s);
+  void judge_way(const PanTilt& angles, double now_s);
+  void judge_pictures_of_motion(double since_s, double way_rad, double now_s);
+  void give_up_motion(double now_s);
+  void judge_place_after_loss(const PanTilt& angles, double now_s);
   void judge_rest(double now_s);
   void move_in_picture(double time_s, bool moved_before);
   void judge_positions(double time_s);
@@ -158,13 +173,20 @@ class Drive {
 
   std::deque<Seen> seen_;  // positions of the last 0.6 s
   Travel pan_travel_, tilt_travel_;
-  // true: the reported positions have not followed an order, nor any order after it
-  bool distrusted_ = false;
+  std::optional<Way> way_;
+  // true: the reported positions have not followed an order, or have contradicted the pictures, and
+  // this is so for every order since then
+  bool distrusted_ = false, contradicted_ = false;
+  // Where the mount can be by its last order; set when the connection is lost in motion.
+  std::optional<AngleBox> may_be_in_;
+  double displaced_since_s_ = -1e9;  // or since when it last moved
+  bool displaced_ = false;  // it has moved without a connection, and has not come to rest since
+  bool was_lost_ = false;   // and no position was reported since
   // No motion is ordered before this time, because the mount has refused or ignored one.
   double refused_until_s_ = -1e9;
   // Times at which it was last observed that the mount moved without an order, did not stop, or
   // ignored an order.
-  std::optional<double> unordered_s_, unstopped_s_, ignored_s_;
+  std::optional<double> unordered_s_, unstopped_s_, ignored_s_, displaced_s_;
 
   PictureMotion picture_;
   bool picture_moves_ = false;

@@ -134,6 +134,7 @@ device::DeviceReport DrivenMount::report() const {
                      {"ptu_emergencies", seen.emergencies},
                      {"ptu_stops_repeated", seen.stops_repeated},
                      {"ptu_unordered_motions", seen.unordered_motions},
+                     {"ptu_moved_unconnected", seen.moved_unconnected},
                      {"ptu_unordered_in_picture", seen.unordered_in_picture},
                      {"ptu_orders_ignored", seen.orders_ignored},
                      {"ptu_port_failures", thread_.link().failures}};

@@ -20,9 +20,17 @@ class PictureMotion {
   enum class Is { kUnknown, kAtRest, kMoving };
   // By the pictures of the last 1.5 s, as far as they were exposed since `since_s`.
   Is judge(double since_s) const;
+  // Whether the camera turned by less than `least_rad` since then, at most eight seconds ago; false
+  // if the pictures since then have a gap or cover less than 1.2 s.
+  bool stood(double since_s, double least_rad) const;
 
  private:
-  std::deque<SeenTurn> turns_;
+  struct Sum;   // of the turns of one axis
+  struct Sums;  // of both
+  using Turns = std::deque<SeenTurn>;
+  Sums sums(Turns::const_iterator first) const;
+
+  Turns turns_;
 };
 
 }  // namespace ols::mount

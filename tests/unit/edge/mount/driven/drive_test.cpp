@@ -271,7 +271,81 @@ TEST_F(DriveTest, ACameraThatRebootsIntoItsHomeIsNoticed) {
   camera.x = 0.0;
   drive->connected(moves);
   run(2.0);
-  EXPECT_NE(alarms().find("moves without an order"), std::string::npos);
+  EXPECT_NE(alarms().find("moved while it was not connected"), std::string::npos);
+  EXPECT_EQ(drive->counters().moved_unconnected, 1u);
+}
+
+TEST_F(DriveTest, ARebootInMotionDropsTheOrderAndNoAngleIsBelievedBeforeTheCameraRests) {
+  start();
+  run(6.0, [&](double) { return rest(150.0, 0.0); });
+  ASSERT_GT(pan_deg(), 60.0);
+  drive->lost();
+  EXPECT_FALSE(drive->has_goal());
+  camera.velocity = {};
+  camera.x = 0.1;
+  now_s += 20.0;
+  drive->connected(moves);
+  camera.place = Vector{0.0, 0.0};  // its home, reached in a second
+  camera.ignores_all = true;
+  run(0.9);
+  EXPECT_NE(alarms().find("moved while it was not connected"), std::string::npos) << alarms();
+  EXPECT_LT(newest.time_s, now_s - 20.0);
+  run(3.0);
+  EXPECT_GT(newest.time_s, now_s - 1.0);
+}
+
+TEST_F(DriveTest, ALostConnectionWithoutARebootIsNoMotionOfItsOwn) {
+  for (const bool absolute : {false, true}) {
+    camera = {};
+    if (absolute) moves = {Space{{-1.0, 1.0}, {-1.0, 1.0}}, {}};
+    start();
+    run(3.0, [&](double) { return rest(100.0, 0.0); });
+    drive->lost();
+    for (int i = 0; i < 500; ++i) camera.run(0.01, now_s += 0.01);
+    drive->connected(moves);
+    run(1.0);
+    EXPECT_EQ(alarms(), "");
+    EXPECT_GT(newest.time_s, now_s - 1.0);
+  }
+}
+
+TEST_F(DriveTest, AMoveToAPositionThatIsNotCarriedOutIsTold) {
+  for (const bool stream : {false, true}) {  // of goals, faster than a move is judged
+    camera = {};
+    camera.ignores_all = true;
+    moves = {Space{{-1.0, 1.0}, {-1.0, 1.0}}, {}};
+    start();
+    run(4.9,
+        [&](double t) { return rest(stream ? 40.0 + std::fmod(std::floor(t), 4.0) : 40.0, 0.0); });
+    EXPECT_NE(alarms().find("does not move as ordered"), std::string::npos) << alarms();
+    EXPECT_EQ(drive->counters().orders_ignored, 1u);
+    const double told_s = newest.time_s;
+    run(2.0);
+    EXPECT_EQ(newest.time_s, told_s);
+    camera.ignores_all = false;
+    run(25.0, [&](double) { return rest(40.0, 0.0); });
+    EXPECT_GT(newest.time_s, now_s - 1.0);
+  }
+}
+
+TEST_F(DriveTest, PositionsThatFollowOrdersWhileThePictureStandsAreNotBelieved) {
+  for (const bool absolute : {false, true}) {
+    camera = {};
+    if (absolute) moves = {Space{{-1.0, 1.0}, {-1.0, 1.0}}, {}};
+    scene_deg = [&](double) { return -pan_deg(); };
+    start();
+    run(2.0);
+    run(4.6, [&](double) { return rest(150.0, 0.0); });
+    EXPECT_NE(alarms().find("contradict the pictures"), std::string::npos) << alarms();
+    EXPECT_EQ(camera.velocity.x, 0.0);
+    const double told_s = newest.time_s;
+    run(1.0);
+    EXPECT_EQ(newest.time_s, told_s);
+    scene_deg = still;
+    run(20.0, [&](double) { return rest(-100.0, 0.0); });
+    EXPECT_GT(newest.time_s, now_s - 1.0);
+    EXPECT_EQ(alarms().find("contradict"), std::string::npos);
+  }
 }
 
 TEST_F(DriveTest, OrdersThatAreNotCarriedOutEnd) {
