@@ -25,6 +25,9 @@ struct StationTraits {
   std::optional<AzimuthElevation> axis{};  // of the optical axis, as last reported
   bool commandable = true;                 // not stopped, and not under operator control
   StatedCalibration calibration{};
+  // Maker, model and serial number of its mount; empty if the mount states no usable serial number.
+  std::string mount{};
+  std::int64_t stated_us = 0;  // when the station stated this
 };
 
 struct KnownStation {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "base/bus/message_code.h"
@@ -189,12 +190,34 @@ std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::str
   return measurement;
 }
 
+namespace {
+
+// "ONVIF Maker Model, serial 1234: moves absolute ..." without the end; empty without a serial
+// number that distinguishes one device from another.
+std::string stated_mount(const ols_msg::station_status_t& message) {
+  const auto named = std::ranges::find(message.device_name, "ptu");
+  if (named == message.device_name.end()) return {};
+  constexpr std::string_view kSerial = ", serial ";
+  constexpr std::size_t kLongest = 200;
+  const std::string& text =
+      message.device_text[static_cast<std::size_t>(named - message.device_name.begin())];
+  const std::size_t at = text.find(kSerial);
+  const std::size_t end = at == std::string::npos ? at : text.find(": ", at);
+  if (end == std::string::npos || end > kLongest) return {};
+  const std::size_t first = text.find_first_not_of("0 ", at + kSerial.size());
+  return first < end ? plain_text(text.substr(0, end)) : std::string();
+}
+
+}  // namespace
+
 std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,
                                                               const void* data, int bytes) {
   ols_msg::station_status_t message;
   const auto refusal = decode(kStatusChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
   StationPlace place{message.station, {}};
+  place.traits.mount = stated_mount(message);
+  place.traits.stated_us = message.utime;
   place.traits.calibration = {
       from_code(message.calibration_state, CalibrationState::kDoubted, CalibrationState::kNone),
       message.calibration_utime, message.calibration_sd_rad};

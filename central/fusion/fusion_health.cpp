@@ -1,7 +1,10 @@
 #include "central/fusion/fusion_health.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "central/admission/shared_mount.h"
 #include "central/measurement/time_span.h"
 
 namespace ols::fusion {
@@ -94,6 +97,8 @@ FusionHealth health_of(const Admission& admission, const PointingMonitor& pointi
     if (!alarm.empty()) health.alarms.push_back(alarm);
     health.stations.push_back(std::move(one));
   }
+  std::ranges::move(shared_mount_alarms(admission.stations().all()),
+                    std::back_inserter(health.alarms));
   return health;
 }
 

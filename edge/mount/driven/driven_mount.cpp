@@ -109,6 +109,7 @@ device::DeviceReport DrivenMount::report() const {
   const double now_s = clock_monotonic_s();
   const std::lock_guard lock(shared_.mutex);
   const Drive& drive = shared_.drive;
+  report.serial = shared_.serial;
   report.last_good_s = drive.last_position_s();
   report.errors += shared_.errors;
   if (!shared_.last_error.empty()) report.last_error = shared_.last_error;

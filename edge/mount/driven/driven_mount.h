@@ -26,6 +26,7 @@ struct SharedDrive {
   Drive drive;
   bool usable = true;          // false: the reported angles must not be used
   std::string words;           // description of the mount and its capabilities
+  std::string serial;          // serial number of the mount; empty if it states none
   std::string last_error;      // empty if there was none
   std::vector<Alarm> alarms;   // of this kind of mount
   std::optional<Alarm> fault;  // why the session does not connect at present

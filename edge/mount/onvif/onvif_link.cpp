@@ -127,10 +127,10 @@ std::string OnvifLink::read_stream(const Profile& profile) {
   return stream_uri(ask(media_url_, get_stream_uri(token)).answer);
 }
 
-std::string OnvifLink::read_device() {
+DeviceInformation OnvifLink::read_device() {
   try {
     return device_information(ask(url_, get_device_information()).answer);
-  } catch (const AnswerError&) {  // it gives only a name
+  } catch (const AnswerError&) {  // it gives only names
     return {};
   }
 }
@@ -197,7 +197,7 @@ Offer OnvifLink::offer() {
     offer.streams.push_back(std::move(stream));
   }
   if (offer.streams.empty()) throw AnswerError("the camera has no stream by RTSP");
-  offer.device = read_device();
+  offer.device = read_device().name;
   return offer;
 }
 

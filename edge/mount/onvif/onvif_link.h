@@ -19,7 +19,7 @@ struct LoginRefused : std::runtime_error {
 
 // The data of a camera that are read before it is moved.
 struct Learnt {
-  std::string device;  // maker and model; empty if the camera does not state them
+  DeviceInformation device;  // empty if the camera does not state it
   Profile profile;
   PtzOptions options;
 };
@@ -83,7 +83,7 @@ class OnvifLink {
   std::vector<Profile> read_profiles();
   void add_media2(std::vector<Profile>& profiles);
   std::string read_stream(const Profile& profile);
-  std::string read_device();
+  DeviceInformation read_device();
   PtzOptions read_options(const Profile& profile);
   void order_stop(const std::string& profile);
 

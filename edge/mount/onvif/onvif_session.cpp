@@ -36,7 +36,9 @@ Request request_of(const mount::Order& order, const Learnt& learnt, double lease
 }
 
 std::string words_of(const Learnt& learnt, const std::optional<double>& clock_ahead_s) {
-  std::string text = learnt.device.empty() ? "ONVIF" : "ONVIF " + learnt.device;
+  const DeviceInformation& device = learnt.device;
+  std::string text = device.name.empty() ? "ONVIF" : "ONVIF " + device.name;
+  if (!device.serial.empty()) text += ", serial " + device.serial;
   const PtzOptions& options = learnt.options;
   text += ": moves";
   if (options.absolute) text += " absolute";
@@ -113,6 +115,7 @@ void OnvifSession::serve(OnvifLink& open, mount::SharedDrive& shared, device::De
   {
     const std::lock_guard lock(shared.mutex);
     shared.words = words_of(learnt, open.clock_ahead_s());
+    shared.serial = learnt.device.serial;
     shared.drive.connected(learnt.options);
   }
   if (!learnt.options.continuous && !learnt.options.absolute)

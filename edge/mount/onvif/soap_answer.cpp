@@ -148,10 +148,11 @@ std::optional<std::int64_t> date_and_time(const std::string& text) {
   return timegm(&parts);
 }
 
-std::string device_information(const std::string& text) {
+DeviceInformation device_information(const std::string& text) {
   const Answer answer(text, "GetDeviceInformation");
-  return words(text_of(child(answer.response(), "Manufacturer")) + " " +
-               text_of(child(answer.response(), "Model")));
+  return {words(text_of(child(answer.response(), "Manufacturer")) + " " +
+                text_of(child(answer.response(), "Model"))),
+          words(trimmed(text_of(child(answer.response(), "SerialNumber"))))};
 }
 
 Services services(const std::string& text) {

@@ -48,6 +48,11 @@ struct Profile {
   bool of_media2 = false;  // stated by Media2, which is then asked for the stream, too
 };
 
+struct DeviceInformation {
+  std::string name;    // maker and model
+  std::string serial;  // serial number; many cheap cameras state the same one, such as "0000"
+};
+
 struct Services {
   std::string media, ptz, media2{};  // addresses; empty if there is no such service
 };
@@ -60,7 +65,7 @@ struct PtzStatus : mount::Vector {
 // Time of the camera's clock: UTC since 1970 in whole seconds; nullopt if the camera does not state
 // it.
 std::optional<std::int64_t> date_and_time(const std::string& answer);
-std::string device_information(const std::string& answer);  // maker and model
+DeviceInformation device_information(const std::string& answer);
 Services services(const std::string& answer);
 // The answer to GetServices, which lists Media2.
 Services listed_services(const std::string& answer);

@@ -97,6 +97,24 @@ TEST(Messages, BearingBecomesAMeasurement) {
   EXPECT_EQ(check(measurement), BearingRefusal::kNone);
 }
 
+TEST(Messages, AStatusNamesItsMountIfItsSerialNumberIsOne) {
+  for (const auto& [text, mount] : std::vector<std::array<std::string, 2>>{
+           {"ONVIF A B, serial 17: moves absolute, clock +0 s", "ONVIF A B, serial 17"},
+           {"ONVIF A B, serial 0000: moves absolute", ""},
+           {"ONVIF A B: moves absolute", ""},
+           {"no connection: timed out", ""}}) {
+    auto message = status();
+    message.devices = 2;
+    message.device_name = {"camera", "ptu"};
+    message.device_state = {2, 2};
+    message.device_text = {"another, serial 18: x", text};
+    message.device_age_s = {0.0, 0.0};
+    const auto result = decode_status(encoded(message));
+    EXPECT_EQ(std::get<StationPlace>(result).traits.mount, mount) << text;
+    EXPECT_EQ(std::get<StationPlace>(result).traits.stated_us, message.utime);
+  }
+}
+
 TEST(Messages, ABearingSaysWhatADetectorSaw) {
   auto message = bearing();
   message.detected = 1;

@@ -53,6 +53,9 @@ struct Body {
       content =
           "<Capabilities><Media><XAddr>http://192.168.1.9/m</XAddr></Media><PTZ><XAddr>"
           "http://192.168.1.9/p</XAddr></PTZ></Capabilities>";
+    if (name == "GetDeviceInformation")
+      content =
+          "<Manufacturer>Maker</Manufacturer><Model>M</Model><SerialNumber> 17 </SerialNumber>";
     if (name == "GetProfiles")
       content =
           "<Profiles token=\"a\"><PTZConfiguration token=\"c\"><NodeToken>n</NodeToken>"
@@ -130,6 +133,8 @@ TEST_F(OnvifMountTest, LogsInStopsFirstGoesToAGoalAndStopsAtTheEnd) {
     }));
     EXPECT_EQ(mount.report().state, device::DeviceState::kOk);
     EXPECT_THAT(mount.report().text, HasSubstr("absolute continuous"));
+    EXPECT_THAT(mount.report().text, HasSubstr("ONVIF Maker M, serial 17: moves"));
+    EXPECT_EQ(mount.report().serial, "17");
   }
   EXPECT_EQ(camera.names().back(), "Stop");
   EXPECT_THAT(camera.all_bytes(), Not(HasSubstr(kPassword)));
