@@ -90,6 +90,9 @@ def test_it_measures_what_its_position_reports_are_worth(ptz):
         print(done.stdout, done.stderr)
         assert done.returncode == 0, done.stdout + done.stderr
         mount = tomllib.loads(ptz.config.read_text())["mount"]
+        told = finished(BIN / "ols-doctor", "--config", ptz.config).stdout
+        assert "mount: measured by ols-calibrate mount" in told, told
+        assert "serial alfa: moves absolute" in told, told
     finally:
         ptz.running.stop("alfa")
         ptz.fault("all", 0.0)

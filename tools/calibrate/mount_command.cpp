@@ -1,14 +1,20 @@
 #include "tools/calibrate/mount_command.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <filesystem>
 
+#include "base/files/atomic_file.h"
+#include "base/process/clocks.h"
 #include "base/process/shutdown.h"
 #include "base/trust/trust_options.h"
+#include "edge/calibration/mount_record.h"
 #include "geometry/angles.h"
 #include "tools/calibrate/command_report.h"
 #include "tools/calibrate/config_change.h"
@@ -109,6 +115,22 @@ void check_limits(const setup::Values& values, const MountResult& result) {
   }
 }
 
+// For ols-doctor. The result stands although it may not be kept.
+void keep(const std::filesystem::path& store, const MountResult& result, bool written) {
+  try {
+    std::filesystem::create_directories(store);
+    AtomicFile file((store / station::kMountRecord).string());
+    file.stream() << fmt::format(
+        "{:%Y-%m-%d %H:%M} UTC, {}\n{}\n{}\n",
+        fmt::gmtime(static_cast<std::time_t>(clock_utime_us() / 1'000'000)),
+        written ? "written to the configuration" : "not written to the configuration",
+        said("pan", result.pan), said("tilt", result.tilt));
+    file.commit();
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "the result is not kept for ols-doctor: %s\n", problem.what());
+  }
+}
+
 }  // namespace
 
 CLI::App* add_mount(CLI::App& app, MountOptions& o) {
@@ -149,6 +171,7 @@ int run_mount(const MountOptions& o) {
     check_limits(before, result);
     write_changes(station.config, text, before, now);
   }
+  keep(station.store, result, o.write);
   return result.pan.fit && result.tilt.fit ? 0 : kExitLookAtIt;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include "base/config/configuration_files.h"
 #include "base/config/toml_config.h"
@@ -14,9 +15,13 @@
 #include "console/add_user.h"
 #include "console/console_config.h"
 #include "cue/cue_config.h"
+#include "edge/calibration/mount_record.h"
 #include "edge/camera/aravis/aravis_kind.h"
+#include "edge/camera/rtsp/rtsp_kind.h"
 #include "edge/config/config.h"
 #include "edge/messages/messages_bus.h"
+#include "edge/mount/onvif/onvif_kind.h"
+#include "edge/mount/onvif/service_address.h"
 #include "edge/ptu/ptu_kind.h"
 #include "edge/sensors/dpg2/dpg2_kind.h"
 #include "export/export_config.h"
@@ -78,6 +83,28 @@ Findings examine_camera(const station::ChosenCamera& camera, double patience_s) 
 Findings examine_mount(const station::ChosenMount& mount, double patience_s) {
   if (const auto* flir = mount.as<ptu::PtuKind>()) return judge(ask_ptu(flir->unit));
   return {judge(ask_mount(*mount, patience_s))};
+}
+
+// Nothing moves here: ols-calibrate does that, if a person wants it.
+Findings examine_onvif(const station::StationSettings& settings) {
+  const auto* mount = settings.mount.as<onvif::OnvifKind>();
+  if (mount == nullptr) return {};
+  constexpr std::size_t kLongest = 4096;
+  std::string record;
+  try {
+    record = read_small_file(
+        (fs::path(settings.state_folder) / "calibrations" / settings.id / station::kMountRecord)
+            .string(),
+        kLongest);
+  } catch (const std::system_error&) {  // not measured, or not here
+  }
+  Findings findings{judge_measured_mount(record, settings.id)};
+  const auto* pictures = settings.camera.as<camera::RtspKind>();
+  if (pictures == nullptr) return findings;
+  const auto other =
+      judge_hosts(onvif::host_of(pictures->rtsp.url), onvif::host_of(mount->onvif.url));
+  if (other) findings.push_back(*other);
+  return findings;
 }
 
 // Devices that only the station may use while it runs, and the clock, which it reports itself.
@@ -160,6 +187,7 @@ Findings examine_station(const std::string& path, const Request& request,
   for (const auto& [id, station] : bus.stations) statuses[id] = station.text;
   append(findings, judge(bus));
   append(findings, examine_own(settings, path, bus, request.patience_s));
+  append(findings, examine_onvif(settings));
   append(findings, examine_host(settings));
   if (bus.trouble.empty()) append(findings, judge_company(bus, settings.id));
   return findings;

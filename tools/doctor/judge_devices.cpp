@@ -2,7 +2,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 
+#include "base/text/plain_text.h"
 #include "conditions/alarms.h"
 #include "conditions/printed.h"
 
@@ -168,6 +170,25 @@ Findings judge(const LinkFacts& link, double rate_bytes_s) {
         "cable"));
   }
   return findings;
+}
+
+Finding judge_measured_mount(const std::string& record, const std::string& station) {
+  if (record.empty()) {
+    return ok(
+        "mount: not measured yet: ols-calibrate mount --station " + station +
+        " turns it a little and shows whether it moves, how late and how exact its positions are");
+  }
+  std::string text = "mount: measured by ols-calibrate mount";
+  std::istringstream lines(record);
+  for (std::string one; std::getline(lines, one);) text += "; " + plain_text(one);
+  return ok(text);
+}
+
+std::optional<Finding> judge_hosts(const std::string& of_pictures, const std::string& of_mount) {
+  if (of_pictures == of_mount) return std::nullopt;
+  return warn("mount: at " + of_mount + ", but the pictures come from " + of_pictures,
+              "right if they come through a recorder or a proxy; else correct url in [camera] or "
+              "[mount]: a stream of another camera gives wrong bearings");
 }
 
 Findings judge(const CameraAnswers& camera) {

@@ -155,5 +155,23 @@ TEST(DoctorOnDevices, ALinkTooSlowTooNarrowOrLossyIsTold) {
   EXPECT_EQ(exit_status(judge(LinkFacts{}, stream)), 2);
 }
 
+TEST(MeasuredMount, TheResultOfTheMeasurementIsShownOrHowToGetIt) {
+  EXPECT_EQ(
+      judge_measured_mount("2026-12-01 04:10 UTC, written\npan: gain 1\ntilt: gain 2\n", "alfa")
+          .what,
+      "mount: measured by ols-calibrate mount; 2026-12-01 04:10 UTC, written; pan: gain 1; "
+      "tilt: gain 2");
+  EXPECT_NE(judge_measured_mount("", "alfa").what.find("ols-calibrate mount --station alfa"),
+            std::string::npos);
+}
+
+TEST(MeasuredMount, PicturesOfAnotherHostAreNamed) {
+  EXPECT_FALSE(judge_hosts("10.0.0.5", "10.0.0.5"));
+  const auto other = judge_hosts("10.0.0.6", "10.0.0.5");
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->verdict, Verdict::kWarn);
+  EXPECT_EQ(other->what, "mount: at 10.0.0.5, but the pictures come from 10.0.0.6");
+}
+
 }  // namespace
 }  // namespace ols::doctor
