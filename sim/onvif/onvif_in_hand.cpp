@@ -60,15 +60,21 @@ std::string OnvifInHand::ask(const onvif::Request& request) {
   return answer ? answer->body : "";
 }
 
-void OnvifInHand::connect(double now_s) {
+// As the product's thread: an answer that cannot be used ends the connection.
+void OnvifInHand::connect(double now_s) try {
   device_s_ = std::max(device_s_, now_s);
   const std::string answer = ask(onvif::get_options("motion"));
-  lost_ = answer.empty();
-  if (lost_) {
-    again_s_ = now_s + kReconnect_s;
-  } else {
-    drive_.connected(onvif::options(answer));
-  }
+  if (answer.empty()) return lose(now_s);
+  drive_.connected(onvif::options(answer));
+  lost_ = false;
+} catch (const onvif::AnswerError&) {
+  lose(now_s);
+}
+
+void OnvifInHand::lose(double now_s) {
+  drive_.lost();
+  lost_ = true;
+  again_s_ = now_s + kReconnect_s;
 }
 
 onvif::Request OnvifInHand::request_of(const mount::Order& order) const {
@@ -102,18 +108,18 @@ void OnvifInHand::send(const mount::Order& order, double now_s) {
   again_s_ = device_s_ + way_s();
 }
 
-void OnvifInHand::finish(double now_s) {
+void OnvifInHand::finish(double now_s) try {
   const mount::Order order = *pending_;
   pending_.reset();
   if (answer_.empty()) {
-    drive_.lost();
-    lost_ = true;
-    again_s_ = now_s + kReconnect_s;
+    lose(now_s);
   } else if (order.act == Act::kStatus) {
     drive_.take(onvif::status(answer_), sent_s_, again_s_);
   } else {
     drive_.done(order, now_s);
   }
+} catch (const onvif::AnswerError&) {
+  lose(now_s);
 }
 
 }  // namespace ols::sim

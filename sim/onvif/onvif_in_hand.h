@@ -41,6 +41,7 @@ class OnvifInHand {
   double way_s() { return std::uniform_real_distribution(wire.least_s, wire.most_s)(random_); }
   std::string ask(const onvif::Request& request);
   void connect(double now_s);
+  void lose(double now_s);
   onvif::Request request_of(const mount::Order& order) const;
   void send(const mount::Order& order, double now_s);
   void finish(double now_s);

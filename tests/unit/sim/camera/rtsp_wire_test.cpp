@@ -126,6 +126,20 @@ TEST(RtspWire, ReportsOfLocalTimeAreSaidAndNotBelieved) {
   EXPECT_EQ(frame->stamp_source, StampSource::kArrival);
 }
 
+TEST(RtspWire, ReportsOfAClockThatDriftsAwayAreSaidAndNotBelieved) {
+  Wire wire;
+  wire.server.set_faults({.clock_drift = 0.1});
+  wire.connect(camera_config(wire.server.url()));
+  EXPECT_TRUE(wire.await_report([](const device::DeviceReport& report) {
+    return std::ranges::any_of(report.alarms,
+                               [](const Alarm& a) { return a.id == "camera_reports_refused"; });
+  }));
+  const auto frame = wire.await(any);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamp_source, StampSource::kArrival);
+  EXPECT_NEAR(frame->mid_exposure_s, time_in(*frame), 0.1);
+}
+
 TEST(RtspWire, ACameraThatComesBackIsConnectedAgain) {
   Wire wire;
   wire.connect(camera_config(wire.server.url()));
