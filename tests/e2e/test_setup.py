@@ -126,6 +126,23 @@ def test_a_person_picks_an_onvif_camera_and_types_its_password(tmp_path, centre,
     assert secret.stat().st_mode & 0o777 == 0o640
 
 
+def test_a_telescope_mount_behind_an_indi_server_is_found(network, tmp_path, centre):
+    tripod = tmp_path / "alfa"
+    answers = answers_of(tmp_path, centre, "/nonexistent")
+    answers += '[station.mount]\nkind = "indi"\nport = 7751\naxes = "altazimuth"\n'
+    assert "no INDI mount answers" in set_up(tripod, answers, status=2)
+    server = ["indiserver", "-p", "7751", "-u", str(tmp_path / "pipe"), "indi_simulator_telescope"]
+    with Site(tmp_path / "indi-logs") as site:
+        site.start("indiserver", server, {"HOME": str(tmp_path)})
+        telescope = ("indi_getprop", "-1", "-t", "1", "-p", "7751", "*.DRIVER_INFO.DRIVER_NAME")
+        wait(lambda: "Telescope" in finished(*telescope).stdout, "the telescope")
+        said = set_up(tripod, answers)
+    assert "mount: Telescope Simulator at localhost:7751" in said
+    config = tripod / "etc/ols/alfa.toml"
+    assert 'device = "Telescope Simulator"' in config.read_text()
+    run("ols-station", "--config", config, "--check-config")
+
+
 def answers_of(tmp_path, centre, line):
     (tmp_path / "state").mkdir(exist_ok=True)
     return STATION.format(invitation=centre[2], line=line, url=LIVE_URL, state=tmp_path / "state")
