@@ -61,11 +61,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(packet.has_value() == (head.size() == 8), "eight bytes are a head");
     if (!packet) break;
     packet->pts_ns = (what & 0x40) != 0 ? packet->stamp : input.byte();
-    packet->arrival_s = now_s;
     packet->report_utc_ns = report;
-    pictures.add(*packet);
-    pictures.decoding(packet->pts_ns, (what & 0x80) != 0);
-    if (const auto picture = pictures.take(packet->pts_ns)) stamp(clock, *picture);
+    // A hostile stream is long: one byte stands for 300 packets whose stamps leap on.
+    const std::uint32_t leap = packet->stamp;
+    for (int left = (what & 0x0f) == 0x0e ? 300 : 1; left > 0; --left) {
+      packet->arrival_s = now_s;
+      pictures.add(*packet);
+      pictures.decoding(packet->pts_ns, (what & 0x80) != 0);
+      if (const auto picture = pictures.take(packet->pts_ns)) stamp(clock, *picture);
+      ++packet->sequence, packet->stamp += leap, packet->pts_ns += leap, now_s += 0.001;
+    }
   }
   return 0;
 }
