@@ -1,11 +1,13 @@
 """A station whose camera and mount are one simulated PTZ camera, by RTSP and ONVIF on the wire: it
-measures its own position reports, locks a target, and turns no more once it is gone."""
+measures its own position reports, locks a target, turns no more once it is gone, and notices what
+it did not order."""
 
 import math
 import re
 import signal
 import subprocess
 import tomllib
+from datetime import timedelta
 
 import numpy as np
 import ols_msg
@@ -15,6 +17,7 @@ from helpers import Listener, addressed, at_frame_rate, point
 from ols_demo.bus import LIVE_URL
 from ols_demo.operator import Operator
 from ols_demo.site import Site
+from onvif import ONVIFCamera
 
 SCENARIO = ROOT / "sim/scenarios/onvif.toml"
 FRAMES_HZ = 8.0
@@ -54,6 +57,31 @@ class Ptz:
     def knows_angles(self):
         status = self.listener.observer.status.get("alfa")
         return status is not None and math.isfinite(status.pan_rad)
+
+    def raises(self, alarm):
+        return alarm in self.listener.observer.status["alfa"].alarm_id
+
+    def wait_for_rest(self, seconds):
+        self.truth.clear()
+
+        def stands():
+            since = self.truth[-1][0] - 1e6 * seconds if self.truth else 0.0
+            pans = [pan for at, pan in self.truth if at > since]
+            return bool(pans) and self.truth[0][0] < since and np.ptp(pans) == 0.0
+
+        self.listener.wait(stands, "rest")
+
+    def turn_as_another_client(self, velocity):
+        password = (self.folder / "lines/alfa.password").read_text().strip()
+        camera = ONVIFCamera("127.0.0.11", 8080, "admin", password)
+        profile = camera.create_media_service().GetProfiles()[0].token
+        camera.create_ptz_service().ContinuousMove(
+            {
+                "ProfileToken": profile,
+                "Velocity": {"PanTilt": {"x": velocity, "y": 0}},
+                "Timeout": timedelta(seconds=60),
+            }
+        )
 
     def fault(self, kind, duration_s, value=float("nan")):
         fault = ols_msg.sim_fault_t()
@@ -129,6 +157,41 @@ def test_it_locks_a_target_and_stops_when_it_is_killed(ptz):
     ptz.listener.wait(lambda: ptz.truth[-1][0] > killed + 1e6 * (AT_REST_S + 1.0), "the truth")
     after = np.array([pan for at, pan in ptz.truth if at > killed + 1e6 * AT_REST_S])
     assert np.ptp(after) == 0.0
+
+
+def test_a_motion_that_only_the_picture_shows_is_stopped_and_told(ptz):
+    text = ptz.config.read_text()
+    seeing = re.sub(r"(\[detector\]\n)enabled = false", r"\1enabled = true", text)
+    assert seeing != text
+    ptz.config.write_text(seeing)
+    ptz.start()
+    try:
+        ptz.look_at_scenery()
+        ptz.wait_for_rest(8.0)
+        ptz.fault("ptz-frozen", 1e6)
+        ptz.turn_as_another_client(-0.15)
+        ptz.listener.wait(lambda: ptz.raises("ptu_picture_moves_unordered"), "the alarm")
+        ptz.wait_for_rest(2.0)
+        ptz.listener.wait(
+            lambda: ptz.raises("ptu_positions_contradict_pictures"), "that its positions are wrong"
+        )
+    finally:
+        ptz.fault("all", 0.0)
+        ptz.running.stop("alfa")
+        ptz.config.write_text(text)
+
+
+def test_a_camera_that_starts_anew_is_told(ptz):
+    ptz.start()
+    try:
+        ptz.look_at_scenery()
+        ptz.wait_for_rest(8.0)
+        ptz.fault("ptz-reboots", 1e6)
+        ptz.listener.wait(lambda: ptz.raises("ptu_no_connection"), "its loss")
+        ptz.listener.wait(lambda: ptz.raises("ptu_moved_unconnected"), "the alarm")
+    finally:
+        ptz.fault("all", 0.0)
+        ptz.running.stop("alfa")
 
 
 def turn(sequence):

@@ -83,6 +83,8 @@ void Drive::lost() {
   if (motion_ != Motion::kNone) {
     rest_.reset();
     if (!seen_.empty()) may_be_in_ = spanned(seen_.back().angles, end_of_motion());
+  } else if (!rest_ && !seen_.empty() && !moves()) {
+    rest_ = seen_.back().angles;
   }
   seen_.clear();
 }

@@ -275,6 +275,17 @@ TEST_F(DriveTest, ACameraThatRebootsIntoItsHomeIsNoticed) {
   EXPECT_EQ(drive->counters().moved_unconnected, 1u);
 }
 
+TEST_F(DriveTest, ARebootSoonAfterAStopIsNoticed) {
+  camera.x = 0.3;
+  start();
+  run(1.5);
+  drive->lost();
+  camera.x = 0.0;
+  drive->connected(moves);
+  run(0.5);
+  EXPECT_NE(alarms().find("moved while it was not connected"), std::string::npos);
+}
+
 TEST_F(DriveTest, ARebootInMotionDropsTheOrderAndNoAngleIsBelievedBeforeTheCameraRests) {
   start();
   run(6.0, [&](double) { return rest(150.0, 0.0); });
