@@ -100,7 +100,8 @@ std::string half_blocks(const cv::Mat& gray, int columns) {
 
 void show_picture(const Host& host, const std::string& station, const Values& values) try {
   station::ChosenCamera camera(station::camera_kinds());
-  const config::Section whole{.sections = {camera.section("camera", "")}};
+  config::Section whole;
+  whole.sections.push_back(camera.section("camera", ""));
   ConfigFile file(camera_section(host, values), "the camera");
   config::read(whole, file.root());
   const Taken taken = take_picture(*camera);

@@ -23,20 +23,18 @@ constexpr guint kReorder_ms = 50;
 constexpr guint64 kTimeout_us = 5'000'000;
 constexpr std::int64_t kNtpToUtc_ns = 2'208'988'800LL * 1'000'000'000LL;
 
-// Authorities of which there are none.
-struct TrustsNobody {
-  GTlsDatabase parent;
-};
-struct TrustsNobodyClass {
-  GTlsDatabaseClass parent;
-};
-G_DEFINE_TYPE(TrustsNobody, trusts_nobody, G_TYPE_TLS_DATABASE)
-
-void trusts_nobody_init(TrustsNobody*) {}
-void trusts_nobody_class_init(TrustsNobodyClass* type) {
-  type->parent.verify_chain = [](GTlsDatabase*, GTlsCertificate*, const gchar*, GSocketConnectable*,
-                                 GTlsInteraction*, GTlsDatabaseVerifyFlags, GCancellable*,
-                                 GError**) { return G_TLS_CERTIFICATE_UNKNOWN_CA; };
+// The type of a database of authorities that has none.
+GType trusts_nobody() {
+  static const GType type = g_type_register_static_simple(
+      G_TYPE_TLS_DATABASE, "OlsTrustsNobody", sizeof(GTlsDatabaseClass),
+      [](gpointer class_, gpointer) {
+        static_cast<GTlsDatabaseClass*>(class_)->verify_chain =
+            [](GTlsDatabase*, GTlsCertificate*, const gchar*, GSocketConnectable*, GTlsInteraction*,
+               GTlsDatabaseVerifyFlags, GCancellable*,
+               GError**) { return G_TLS_CERTIFICATE_UNKNOWN_CA; };
+      },
+      sizeof(GTlsDatabase), nullptr, static_cast<GTypeFlags>(0));
+  return type;
 }
 
 std::string words_of(GTlsCertificateFlags errors) {
@@ -145,7 +143,7 @@ void RtspStream::Impl::secure(GstElement* source, const RtspConfig& config) {
                    }),
                    this);
   if (config.pinned_key.empty()) return;
-  gpointer nobody = g_object_new(trusts_nobody_get_type(), nullptr);
+  gpointer nobody = g_object_new(trusts_nobody(), nullptr);
   g_object_set(source, "tls-database", nobody, nullptr);
   g_object_unref(nobody);
 }
