@@ -8,7 +8,9 @@
 #include "central/fusion/track_intake.h"
 #include "central/ground/station_on_land.h"
 #include "central/measurement/time_span.h"
+#include "conditions/alarms.h"
 #include "conditions/refusal.h"
+#include "geometry/angles.h"
 #include "wire/cue_values.h"
 
 namespace ols::fusion {
@@ -92,7 +94,7 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
   targets_.tell(now, tracks_, admission_.clocks(), pointing_, output, log_);
   output.slews = slews_at(now);
   output.occlusions = occlusions_.plan(now, output.slews, admission_.stations(), tracks_.tracks(),
-                                       tracks_.skylines());
+                                       tracks_.skylines(), tracks_.losses());
   return output;
 }
 
@@ -196,7 +198,7 @@ void Fusion::forget(const std::string& station) {
   tracks_.forget_station(station);
   targets_.forget(station);
   slews_.forget(station);
-  tracks_.forget_skyline(station);
+  tracks_.forget_obstacles(station);
   occlusions_.forget(station);
 }
 
@@ -204,6 +206,7 @@ void Fusion::forget_what_changed(const BearingMeasurement& measurement, const Ad
   if (admitted.evicted) forget(*admitted.evicted);
   if (admitted.recalibrated) {
     tracks_.forget_errors(measurement.station);
+    tracks_.forget_losses(measurement.station);
     pointing_.forget(measurement.station);
   }
   if (admitted.restarted) {
@@ -247,6 +250,11 @@ void Fusion::add_land_alarms(std::vector<Alarm>& alarms) const {
     const Alarm alarm =
         station_on_land(name, traits.camera_ecef, traits.camera_sd_enu_m, *config_.land.surface);
     if (!alarm.empty()) alarms.push_back(alarm);
+  }
+  for (const auto& [station, place] : tracks_.losses().places()) {
+    alarms.push_back(alarm::targets_lost_at_place(
+        station, degrees(place.from_azimuth_rad), degrees(place.to_azimuth_rad),
+        degrees(place.from_elevation_rad), degrees(place.to_elevation_rad)));
   }
 }
 

@@ -43,11 +43,9 @@ LandHorizon& OcclusionSchedule::horizon_of(Told& told, const Eigen::Vector3d& ca
   return *told.horizon;
 }
 
-std::vector<OcclusionNotice> OcclusionSchedule::plan(std::int64_t now_us,
-                                                     const std::vector<Slew>& slews,
-                                                     const StationRegistry& stations,
-                                                     const std::vector<Track>& tracks,
-                                                     const SeenSkylines& skylines) {
+std::vector<OcclusionNotice> OcclusionSchedule::plan(
+    std::int64_t now_us, const std::vector<Slew>& slews, const StationRegistry& stations,
+    const std::vector<Track>& tracks, const SeenSkylines& skylines, const LossWatch& losses) {
   std::vector<OcclusionNotice> notices;
   if (!surface_) return notices;
   std::erase_if(spreads_, [&](const auto& one) {
@@ -66,8 +64,9 @@ std::vector<OcclusionNotice> OcclusionSchedule::plan(std::int64_t now_us,
     }
     Told& told = told_[slew.station];
     const Eigen::Vector3d& camera_ecef = station->second.traits.camera_ecef;
-    const auto occlusion = occlusion_ahead(horizon_of(told, camera_ecef), path, kStep_s, kLead_s,
-                                           skylines.of(slew.station, camera_ecef));
+    const auto occlusion = occlusion_ahead(
+        horizon_of(told, camera_ecef), path, kStep_s, kLead_s,
+        {skylines.of(slew.station, camera_ecef), losses.of(slew.station, camera_ecef)});
     if (!occlusion && now_us >= told.exit_us) continue;
     OcclusionNotice notice{slew.station, now_us, slew.target_id};
     if (occlusion) {

@@ -14,6 +14,7 @@
 #include "central/ground/land_horizon.h"
 #include "central/ground/occlusion.h"
 #include "central/ground/seen_skylines.h"
+#include "central/tracking/loss_watch.h"
 #include "central/tracking/track.h"
 
 namespace ols::fusion {
@@ -38,7 +39,8 @@ class OcclusionSchedule {
   // The notices for the stations that get these slews.
   std::vector<OcclusionNotice> plan(std::int64_t now_us, const std::vector<Slew>& slews,
                                     const StationRegistry& stations,
-                                    const std::vector<Track>& tracks, const SeenSkylines& skylines);
+                                    const std::vector<Track>& tracks, const SeenSkylines& skylines,
+                                    const LossWatch& losses);
   void forget(const std::string& station) { told_.erase(station); }
   void clear() {
     told_.clear();

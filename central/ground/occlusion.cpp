@@ -39,9 +39,9 @@ struct Look {  // of one sample at one instant
 // The path as seen from one camera: a row for each instant, a column for each sample.
 class Looks {
  public:
-  Looks(LandHorizon& horizon, const land::SeenSkyline* seen, std::span<const Position> path)
+  Looks(LandHorizon& horizon, const Obstacles& obstacles, std::span<const Position> path)
       : horizon_(horizon),
-        seen_(seen),
+        obstacles_(obstacles),
         path_(path),
         looks_(path.size() * kSamples),
         roots_(path.size()) {
@@ -71,6 +71,7 @@ class Looks {
 
  private:
   static constexpr double kNearest_m = 40.0;
+  static constexpr double kJustHidden_rad = 1e-4;
 
   struct Root {
     Eigen::Vector3d mean_enu;
@@ -80,7 +81,8 @@ class Looks {
 
   std::optional<land::Skyline> highest_before(double azimuth_rad, double distance_m) const {
     const auto land = horizon_.highest_before(azimuth_rad, distance_m);
-    return land && seen_ != nullptr ? seen_->hiding(*land, azimuth_rad, distance_m) : land;
+    const land::SeenSkyline* const seen = obstacles_.seen;
+    return land && seen != nullptr ? seen->hiding(*land, azimuth_rad, distance_m) : land;
   }
 
   static double apparent_elevation(const Eigen::Vector3d& enu) {
@@ -137,11 +139,24 @@ class Looks {
     Look look{azimuth_elevation_from_enu(enu)};
     look.above_rad = above_land({look.direction.azimuth_rad, apparent_elevation(enu)},
                                 enu.head<2>().norm(), kOutlineSd_m * z(4), z(3), crest_m);
+    if (is_lost_at(look.direction, enu.norm(), {z(4), z(3)}))
+      look.above_rad = std::min(look.above_rad, -kJustHidden_rad);
     return look;
   }
 
+  // The edges of an obstacle are known to a cell: each sample displaces them.
+  bool is_lost_at(const AzimuthElevation& direction, double distance_m,
+                  const Eigen::Vector2d& sigmas) const {
+    constexpr double kProbable = 0.5;
+    if (obstacles_.lost == nullptr) return false;
+    const Eigen::Vector2d off_rad = LostPlaces::kCell_rad / std::sqrt(12.0) * sigmas;
+    return obstacles_.lost->probability(
+               {direction.azimuth_rad + off_rad.x(), direction.elevation_rad + off_rad.y()},
+               distance_m) > kProbable;
+  }
+
   LandHorizon& horizon_;
-  const land::SeenSkyline* seen_;
+  Obstacles obstacles_;
   std::span<const Position> path_;
   std::vector<Look> looks_;
   std::vector<Root> roots_;
@@ -218,10 +233,9 @@ std::optional<Emergence> emergence(const Looks& looks, std::size_t midst, double
 }  // namespace
 
 std::optional<Occlusion> occlusion_ahead(LandHorizon& horizon, std::span<const Position> path,
-                                         double step_s, double lead_s,
-                                         const land::SeenSkyline* seen) {
+                                         double step_s, double lead_s, const Obstacles& obstacles) {
   if (path.empty()) return std::nullopt;
-  Looks looks(horizon, seen, path);
+  Looks looks(horizon, obstacles, path);
   const auto lead = static_cast<std::size_t>(lead_s / step_s) + 1;
   // A few samples show whether a target is anywhere near the horizon.
   looks.look(0, kFirstLook);

@@ -12,6 +12,7 @@
 
 #include "central/ground/above_ground.h"
 #include "central/ground/land_horizon.h"
+#include "central/ground/lost_places.h"
 #include "geometry/direction.h"
 #include "land/seen_skyline.h"
 
@@ -29,11 +30,16 @@ struct Occlusion {
   std::optional<Emergence> exit;  // empty: the target does not reappear within the path
 };
 
+// What a station knows to hide targets beyond the model of the land; null where nothing is known.
+struct Obstacles {
+  const land::SeenSkyline* seen = nullptr;  // the skyline that the station has seen
+  const LostPlaces* lost = nullptr;         // where it has lost targets
+};
+
 // `path`: the target's predicted positions, at intervals of step_s. nullopt if it is unlikely that
-// the target is hidden at any time within lead_s. `seen`: the skyline that the station has seen;
-// null if none is known.
+// the target is hidden at any time within lead_s.
 std::optional<Occlusion> occlusion_ahead(LandHorizon& horizon, std::span<const Position> path,
                                          double step_s, double lead_s,
-                                         const land::SeenSkyline* seen = nullptr);
+                                         const Obstacles& obstacles = {});
 
 }  // namespace ols::fusion

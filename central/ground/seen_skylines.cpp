@@ -9,13 +9,15 @@
 
 namespace ols::fusion {
 
-void SeenSkylines::take(const SkylineSector& sector) {
+bool SeenSkylines::take(const SkylineSector& sector) {
   Known& known = skylines_[sector.station];
-  if (known.begun_us != sector.begun_us) known = {};
+  const bool is_new = known.begun_us != sector.begun_us;
+  if (is_new) known = {};
   known.begun_us = sector.begun_us;
   known.camera_ecef = sector.camera_ecef;
   known.heading_disagrees = sector.heading_disagrees;
   known.crests.set_sector(sector.sector, sector.columns);
+  return is_new;
 }
 
 const land::SeenSkyline* SeenSkylines::of(const std::string& station,

@@ -25,7 +25,8 @@ struct SkylineSector {
 
 class SeenSkylines {
  public:
-  void take(const SkylineSector& sector);
+  // Returns whether the station has begun this skyline since its last sector.
+  bool take(const SkylineSector& sector);
   // The station's skyline. Null if none is known from this camera position, or if it does not fit
   // the station's heading.
   const land::SeenSkyline* of(const std::string& station, const Eigen::Vector3d& camera_ecef) const;

@@ -83,6 +83,7 @@ std::vector<Association> LiveTracks::add(std::span<const BearingMeasurement> ima
   for (std::size_t i = 0; i < image.size(); ++i)
     all.push_back(fates[i] ? *fates[i] : give_up(image[i], may_begin));
   judge_existence(image);
+  if (config_.initiation.land) note_losses(image, all);
   return all;
 }
 
@@ -214,8 +215,26 @@ double LiveTracks::visible(const BearingMeasurement& in_image, const Track& trac
   const Eigen::Vector3d& camera_ecef = in_image.sight.origin_ecef;
   const Eigen::Vector3d p_ecef = there.mean.head<3>();
   const Eigen::Matrix3d P = there.covariance.topLeftCorner<3, 3>();
+  return clear_of_land(in_image.station, camera_ecef, p_ecef, P) *
+         (1.0 - losses_.hidden(in_image.station, camera_ecef, p_ecef));
+}
+
+double LiveTracks::clear_of_land(const std::string& station, const Eigen::Vector3d& camera_ecef,
+                                 const Eigen::Vector3d& p_ecef, const Eigen::Matrix3d& P) const {
   return std::min(visibility(*config_.initiation.land, camera_ecef, p_ecef, P),
-                  skylines_.visibility(in_image.station, camera_ecef, p_ecef, P));
+                  skylines_.visibility(station, camera_ecef, p_ecef, P));
+}
+
+void LiveTracks::note_losses(std::span<const BearingMeasurement> image,
+                             std::span<const Association> associations) {
+  losses_.keep_only(tracks_);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const Association& fate = associations[i];
+    const auto track = std::ranges::find(tracks_, fate.track_id, &Track::id);
+    if (fate.kind != Association::Kind::kTrack || fate.track_id == 0 || track == tracks_.end())
+      continue;
+    losses_.note(image[i], *track, [this](const auto&... of) { return clear_of_land(of...); });
+  }
 }
 
 // Two other stations see it, it is in the field of view, and at its brightness the detector would
@@ -344,6 +363,7 @@ void LiveTracks::clear() {
   clutter_ = {};
   merged_.clear();
   skylines_.clear();
+  losses_.clear();
 }
 
 }  // namespace ols::fusion

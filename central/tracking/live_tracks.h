@@ -36,6 +36,7 @@
 #include "central/ground/seen_skylines.h"
 #include "central/tracking/clutter.h"
 #include "central/tracking/duplicate_tracks.h"
+#include "central/tracking/loss_watch.h"
 #include "central/tracking/track_manager.h"
 
 namespace ols::fusion {
@@ -56,10 +57,20 @@ class LiveTracks : public TrackManager {
     views_.know(station, axis, view_rad, utime_us);
   }
   // Takes a part of the skyline that a station has seen. Its obstacles hide targets, in addition to
-  // the model of the land.
-  void know_skyline(const SkylineSector& sector) { skylines_.take(sector); }
-  void forget_skyline(const std::string& station) { skylines_.forget(station); }
+  // the model of the land. With a new skyline, past losses are forgotten.
+  void know_skyline(const SkylineSector& sector) {
+    if (skylines_.take(sector)) losses_.forget(sector.station);
+  }
+  // Forgets what hides targets from the station, beyond the model of the land.
+  void forget_obstacles(const std::string& station) {
+    skylines_.forget(station);
+    losses_.forget(station);
+  }
+  void forget_losses(const std::string& station) { losses_.forget(station); }
   const SeenSkylines& skylines() const { return skylines_; }
+  // Where stations lose targets that neither the land nor the seen skylines hide. Empty if no model
+  // of the land is known.
+  const LossWatch& losses() const { return losses_; }
   bool is_ambiguous() const override;
   // The expected number of ghosts per day from two stations alone, with the present clutter.
   double predicted_ghosts_a_day() const {
@@ -89,6 +100,11 @@ class LiveTracks : public TrackManager {
   void judge_existence(std::span<const BearingMeasurement> image);
   bool should_show(const BearingMeasurement& in_image, const Track& track) const;
   double visible(const BearingMeasurement& in_image, const Track& track) const;
+  // The probability that neither the land nor the seen skyline hides a position from a station.
+  double clear_of_land(const std::string& station, const Eigen::Vector3d& camera_ecef,
+                       const Eigen::Vector3d& p_ecef, const Eigen::Matrix3d& P) const;
+  void note_losses(std::span<const BearingMeasurement> image,
+                   std::span<const Association> associations);
   bool has_rival(const Track& track) const;
   void note_clutter(std::span<const BearingMeasurement> image,
                     std::span<const std::optional<Association>> of_targets,
@@ -110,6 +126,7 @@ class LiveTracks : public TrackManager {
   DuplicateTracks duplicates_;
   StationViews views_;
   SeenSkylines skylines_;
+  LossWatch losses_;
   Clutter clutter_;
   Merged merged_;
 };

@@ -156,13 +156,13 @@ TEST(Occlusion, IsBehindWhatTheStationHasSeen) {
   }
   const auto path = straight(*land, {1000.0, 20.0, 20.0}, {0.0, 10.0, 0.0});
   EXPECT_FALSE(occlusion_ahead(horizon, path, kStep_s, kLead_s));
-  const auto found = occlusion_ahead(horizon, path, kStep_s, kLead_s, &seen);
+  const auto found = occlusion_ahead(horizon, path, kStep_s, kLead_s, {&seen});
   ASSERT_TRUE(found && found->exit);
   EXPECT_GT(found->hidden, 0.95);
   EXPECT_NEAR(found->exit->in_s, (50.0 / 490.0 * 1000.0 - 20.0) / 10.0, 0.5);
   EXPECT_NEAR(found->exit->direction.azimuth_rad, edge_rad, 3e-3);
   const auto before = straight(*land, {400.0, 0.0, 20.0}, {0.0, 1.0, 0.0});
-  EXPECT_FALSE(occlusion_ahead(horizon, before, kStep_s, kLead_s, &seen));
+  EXPECT_FALSE(occlusion_ahead(horizon, before, kStep_s, kLead_s, {&seen}));
 }
 
 TEST(Occlusion, IsNotOfACameraUnderTheGround) {
