@@ -32,7 +32,8 @@ struct Model {
   double west = 9.9, north = 38.6;  // of the first height
   double step = 0.01;
   int columns = 21, rows = 21;
-  int epsg = 4326;  // 0: none
+  int epsg = 4326;   // 0: none
+  std::string unit;  // of the heights; empty: not stated
   std::function<double(double x, double y)> height = [](double x, double y) {
     return 100.0 * x + 200.0 * y;
   };
@@ -53,6 +54,7 @@ void write_model(const std::string& path, const Model& model) {
     file->SetSpatialRef(&system);
   }
   file->GetRasterBand(1)->SetNoDataValue(kVoid);
+  if (!model.unit.empty()) file->GetRasterBand(1)->SetUnitType(model.unit.c_str());
   std::vector<float> row(static_cast<std::size_t>(model.columns));
   for (int i = 0; i < model.rows; ++i) {
     for (int k = 0; k < model.columns; ++k) {
@@ -206,6 +208,72 @@ TEST_F(LandImportTest, WhatCannotBeUsedIsNamed) {
   EXPECT_NE(refused().find("good.tif: does not say what its heights are above"), std::string::npos);
   options_.heights = "no_grid.gtx";
   EXPECT_NE(refused().find("\"no_grid.gtx\" does not exist"), std::string::npos);
+}
+
+TEST_F(LandImportTest, HeightsInFeetBecomeMetres) {
+  Model level;
+  level.height = [](double, double) { return 1000.0; };
+  for (const auto& [unit, metres] :
+       {std::pair{"ft", 304.8}, {"US survey foot", 1000.0 * 1200.0 / 3937.0}, {"metre", 1000.0}}) {
+    level.unit = unit;
+    options_.elevation = {model("level.tif", level)};
+    import();
+    EXPECT_NEAR(ground(38.5, 10.0)->height_m, metres, 1e-3) << unit;
+  }
+  level.unit = "fathom";
+  options_.elevation = {model("level.tif", level)};
+  EXPECT_NE(refused().find("level.tif: its heights are in \"fathom\""), std::string::npos);
+}
+
+// DTED states itself that its heights are above the geoid.
+TEST_F(LandImportTest, ReadsDted) {
+  Model degree{.west = 10.0, .north = 39.0, .step = 1.0 / 120.0, .columns = 121, .rows = 121};
+  degree.height = [](double, double) { return 250.0; };
+  const std::string source = model("source.tif", degree);
+  const std::string dted = folder_ + "/n38e010.dt0";
+  auto* tile = static_cast<GDALDataset*>(GDALOpen(source.c_str(), GA_ReadOnly));
+  auto* copy = GetGDALDriverManager()->GetDriverByName("DTED")->CreateCopy(
+      dted.c_str(), tile, FALSE, nullptr, nullptr, nullptr);
+  ASSERT_NE(copy, nullptr);
+  GDALClose(copy);
+  GDALClose(tile);
+  options_.elevation = {dted};
+  options_.longitude_deg = 10.2;
+  options_.heights = "";
+  import();
+  EXPECT_NEAR(ground(38.51, 10.21)->height_m, 250.0 + Geoid("egm96_15.gtx").height_m(38.51, 10.21),
+              0.1);
+}
+
+// Thirty gigabytes of heights in the size of a field: refused before any of them is read.
+TEST_F(LandImportTest, TooManyHeightsAreRefused) {
+  options_.elevation = {file("fine.vrt",
+                             R"(<VRTDataset rasterXSize="90000" rasterYSize="90000">
+  <SRS>EPSG:4326</SRS><GeoTransform>9.955, 1e-6, 0, 38.545, 0, -1e-6</GeoTransform>
+  <VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)")};
+  EXPECT_NE(refused().find("fine.vrt: has too many heights within the radius"), std::string::npos)
+      << refused();
+}
+
+TEST_F(LandImportTest, ReadsBuildingsOfOpenStreetMap) {
+  Model level;
+  level.height = [](double, double) { return 50.0; };
+  options_.elevation = {model("level.tif", level)};
+  std::string osm = R"(<?xml version="1.0"?><osm version="0.6">)";
+  const double corners[][2] = {{38.5, 10.0}, {38.5, 10.001}, {38.501, 10.001}, {38.501, 10.0}};
+  for (int i = 0; i < 4; ++i) {
+    osm += "<node id=\"" + std::to_string(i + 1) + "\" version=\"1\" lat=\"" +
+           std::to_string(corners[i][0]) + "\" lon=\"" + std::to_string(corners[i][1]) + "\"/>";
+  }
+  osm += R"(<way id="9" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="4"/>
+    <nd ref="1"/><tag k="building" v="yes"/><tag k="building:levels" v="5"/></way></osm>)";
+  options_.buildings = {file("town.osm", osm)};
+  const std::string notes = import();
+  EXPECT_NE(notes.find("town.osm: 1 buildings"), std::string::npos) << notes;
+  EXPECT_NEAR(read_terrain_folder(options_.output)
+                  .terrain->top(radians(38.5005), radians(10.0005))
+                  ->height_m,
+              65.0, 1e-3);
 }
 
 TEST_F(LandImportTest, AbsurdHeightsAreVoidAndNamed) {
