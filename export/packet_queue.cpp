@@ -6,13 +6,18 @@
 namespace ols::exports {
 
 void PacketQueue::put(Packet packet) {
-  if (const auto older = of_.find(packet.subject); older != of_.end()) {
-    waiting_.erase(older->second);
-    ++displaced_;
-  }
   waiting_.push_back(std::move(packet));
   const auto added = std::prev(waiting_.end());
-  if (!added->subject.empty()) of_[added->subject] = added;
+  if (!added->subject.empty()) {
+    OfSubject& of = of_[added->subject];
+    if (of.waiting == 2) {
+      waiting_.erase(of.newest);
+      ++displaced_;
+    } else {
+      ++of.waiting;
+    }
+    of.newest = added;
+  }
   if (waiting_.size() <= most_) return;
   take();
   ++displaced_;
@@ -21,8 +26,9 @@ void PacketQueue::put(Packet packet) {
 std::optional<Packet> PacketQueue::take() {
   if (waiting_.empty()) return std::nullopt;
   Packet packet = std::move(waiting_.front());
-  of_.erase(packet.subject);
   waiting_.pop_front();
+  const auto of = of_.find(packet.subject);
+  if (of != of_.end() && --of->second.waiting == 0) of_.erase(of);
   return packet;
 }
 

@@ -1,6 +1,7 @@
 // The packets that wait for a receiver, in the order in which they were put: a receiver may refuse
-// a packet whose time is earlier than that of the packet before it. Their number is limited; a
-// newer packet replaces an older one of the same subject. Pure.
+// a packet whose time is earlier than that of the packet before it. Their number is limited. At
+// most two packets of one subject wait: the older one keeps its place, so that each subject has its
+// turn over a slow connection, and a newer packet replaces the other. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ class PacketQueue {
  public:
   explicit PacketQueue(std::size_t most = 1000) : most_(most) {}
 
-  // Adds the packet at the end, and removes a waiting packet of the same subject. If there are then
-  // too many, drops the oldest.
+  // Adds the packet at the end, and removes the second waiting packet of the same subject. If there
+  // are then too many, drops the oldest.
   void put(Packet packet);
   std::optional<Packet> take();
   void clear();
@@ -28,8 +29,12 @@ class PacketQueue {
 
  private:
   std::size_t most_;
+  struct OfSubject {
+    int waiting = 0;
+    std::list<Packet>::iterator newest;
+  };
   std::list<Packet> waiting_;
-  std::unordered_map<std::string, std::list<Packet>::iterator> of_;  // by subject
+  std::unordered_map<std::string, OfSubject> of_;  // by subject
   std::uint64_t displaced_ = 0;
 };
 

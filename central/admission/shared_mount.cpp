@@ -21,10 +21,12 @@ std::vector<Alarm> shared_mount_alarms(const std::map<std::string, KnownStation>
     const auto [owner, is_first] = owners.emplace(traits.mount, &entry);
     if (is_first) continue;
     const std::int64_t apart_us = traits.stated_us - owner->second->second.traits.stated_us;
-    if (std::abs(apart_us) < kTogether_us)
+    if (std::abs(apart_us) < kTogether_us) {
       alarms.push_back(
           alarm::stations_share_mount(owner->second->first, entry.first, traits.mount));
-    if (apart_us > 0) owner->second = &entry;
+    } else if (apart_us > 0) {
+      owner->second = &entry;
+    }
   }
   return alarms;
 }

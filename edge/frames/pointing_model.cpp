@@ -45,15 +45,17 @@ void PointingModel::add(const mount::AngleSample& sample) {
 }
 
 // The turn of a calibrated unit is that of an ideal one: within a turn between two pictures, its
-// errors hardly change.
+// errors hardly change. While the mount gives no angles, the last known ones serve: the turn then
+// says only that the mount moves.
 std::optional<mount::SeenTurn> PointingModel::add(const tracker::ImageMotion& motion, double from_s,
                                                   const camera::Frame& frame) {
   const double to_s = frame.mid_exposure_s;
   const auto zoom = zoom_at(from_s);
   const bool same_zoom = zoom && zoom_rests(from_s) == true && zoom_rests(to_s) == true;
   const auto unit = angles_at(from_s);
-  if (!same_zoom || !unit) return std::nullopt;
-  const auto seen = image_turn(geometry_.chain, zoom->camera, unit->angles, motion);
+  if (unit) last_angles_ = unit->angles;
+  if (!same_zoom || !last_angles_) return std::nullopt;
+  const auto seen = image_turn(geometry_.chain, zoom->camera, *last_angles_, motion);
   if (!seen) return std::nullopt;
   const mount::SeenTurn turn{.from_s = from_s,
                              .to_s = to_s,
@@ -61,7 +63,7 @@ std::optional<mount::SeenTurn> PointingModel::add(const tracker::ImageMotion& mo
                              .stamp_sd_s = frame.stamp_sd_s,
                              .turn = seen->turn,
                              .sd = seen->sd};
-  angles_.add(turn);
+  if (unit) angles_.add(turn);
   return turn;
 }
 

@@ -134,6 +134,7 @@ class PointingModel {
   std::int64_t pose_revision_ = 0;
   mount::Limits limits_;
   mount::MountAngles angles_;
+  std::optional<PanTilt> last_angles_;  // at which a turn of the image was seen
   mount::ApproachHistory approach_;
   std::optional<CalibratedUnit> unit_;
   std::optional<lens::ZoomLens> zoom_;

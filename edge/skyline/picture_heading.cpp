@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -108,6 +109,10 @@ class Judge {
         maps_(maps),
         prior_(prior),
         evidence_(photograph_.colours, cell_px_for(photograph_.camera)) {
+    if (evidence_.columns() == 0 || evidence_.rows() == 0) {
+      throw std::invalid_argument(
+          "the picture shows less than 0.15 degrees: is the focal length right?");
+    }
     cv::cvtColor(photograph_.colours, gray_, cv::COLOR_BGR2GRAY);
   }
 

@@ -24,7 +24,8 @@ struct PictureHeading {
 std::vector<double> visibilities_m(double reach_m);
 
 // `picture`: 8 bit, blue, green, red; sky above, by day. `camera`: of the whole picture. `maps`: of
-// the same place, one for each distance that one may have seen.
+// the same place, one for each distance that one may have seen. Throws std::invalid_argument if the
+// picture shows less than a cell of the search.
 PictureHeading picture_heading(const cv::Mat& picture, const CameraIntrinsics& camera,
                                std::span<const land::HorizonMap> maps, const PicturePrior& prior);
 

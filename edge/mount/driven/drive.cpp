@@ -75,12 +75,16 @@ void Drive::connected(const Moves& moves) {
   stops_ = 0;
   intake_.restart();
   seen_.clear();
+  frozen_s_.reset();
 }
 
 void Drive::lost() {
   goal_.reset();
   was_lost_ = true;
-  if (motion_ != Motion::kNone) {
+  if (std::exchange(is_sent_, false)) {  // whether the motion was carried out is unknown
+    rest_.reset();
+    may_be_in_.reset();
+  } else if (motion_ != Motion::kNone) {
     rest_.reset();
     if (!seen_.empty()) may_be_in_ = spanned(seen_.back().angles, end_of_motion());
   } else if (!rest_ && !seen_.empty() && !moves()) {
@@ -93,7 +97,7 @@ void Drive::lost() {
 PanTilt Drive::end_of_motion() const {
   if (motion_ == Motion::kAbsolute) return absolute_;
   const PanTilt& at = seen_.back().angles;
-  const double lasts_s = config_.lease_s + kComesToRest_s;
+  const double lasts_s = std::max(config_.lease_s, offered_.least_lease_s) + kComesToRest_s;
   return {at.pan_rad + rate_.pan_rad * lasts_s, at.tilt_rad + rate_.tilt_rad * lasts_s};
 }
 
@@ -142,6 +146,7 @@ Order Drive::next(double now_s) {
   }
   if (!stop_wanted_ && !old) {
     const Order order = motion(now_s);
+    is_sent_ = order.act == Act::kVelocity || order.act == Act::kAbsolute;
     if (order.act != Act::kWait) return order;
   }
   return {now_s - asked_s_ >= config_.poll_s ? Act::kStatus : Act::kWait, {}};
@@ -212,6 +217,7 @@ Order Drive::motion(double now_s) {
 }
 
 void Drive::done(const Order& order, double now_s) {
+  is_sent_ = false;
   const bool stands_for_stop =
       order.act == Act::kVelocity && order.vector.x == 0.0 && order.vector.y == 0.0;
   if (order.act == Act::kStop || stands_for_stop) {
@@ -252,6 +258,7 @@ void Drive::done(const Order& order, double now_s) {
 
 // A refused motion may be under way all the same.
 void Drive::failed(const Order& order, double now_s) {
+  is_sent_ = false;
   if (order.act == Act::kStop) {
     ++stops_;
     stop_s_ = now_s;
@@ -325,18 +332,22 @@ void Drive::judge_way(const PanTilt& angles, double now_s) {
   const double way_rad = distance(absolute_, way.from);
   if (way_rad < 2.0 * seen_motion_rad()) return;
   const double went_rad = way_rad - distance(absolute_, angles);
-  distrusted_ = went_rad < std::min(kTravelShare * way_rad, kTravel_rad);
+  distrusted_ = went_rad < seen_motion_rad();  // slow mounts are on the way for minutes
   if (!distrusted_) return judge_pictures_of_motion(way.since_s, went_rad, now_s);
   ignored_s_ = now_s;
   give_up_motion(now_s);
 }
 
-// Positions that follow an order although the pictures stand are wrong. The pictures may be late.
+// Positions that follow an order although the pictures stand are wrong, or all corners of the
+// pictures belong to burnt-in text: this is told, and ends nothing. The pictures may be late.
 void Drive::judge_pictures_of_motion(double since_s, double way_rad, double now_s) {
   const bool at_once = motion_ == Motion::kAbsolute;  // and the mount may be there in a second
-  contradicted_ =
-      picture_.stood(since_s + (at_once ? 0.0 : kPictureLate_s), kTravelShare * way_rad);
-  if (contradicted_) give_up_motion(now_s);
+  const double seen_rad = way_rad * std::cos(seen_.back().angles.tilt_rad);
+  if (picture_.stood(since_s + (at_once ? 0.0 : kPictureLate_s), kTravelShare * seen_rad)) {
+    contradicted_s_ = now_s;
+  } else {
+    frozen_s_.reset();
+  }
 }
 
 // A mount that has started anew is in its home position, or on the way to it.
@@ -408,7 +419,14 @@ void Drive::move_in_picture(double time_s, bool moved_before) {
 void Drive::judge_positions(double time_s) {
   if (!picture_moved_since_s_ || time_s - *picture_moved_since_s_ < kOldPosition_s) return;
   picture_moved_since_s_.reset();
-  if (distance(seen_.back().angles, picture_rest_) < seen_motion_rad()) contradicted_ = true;
+  if (distance(seen_.back().angles, picture_rest_) < seen_motion_rad()) frozen_s_ = time_s;
+}
+
+std::vector<AngleSample> Drive::take_samples() {
+  auto samples = intake_.take();
+  const bool frozen = frozen_s_ && !seen_.empty() && seen_.back().time_s - *frozen_s_ < kAlarm_s;
+  if (distrusted_ || frozen || displaced_) samples.clear();
+  return samples;
 }
 
 std::vector<Alarm> Drive::alarms(double now_s) const {
@@ -417,7 +435,8 @@ std::vector<Alarm> Drive::alarms(double now_s) const {
     return seen_s && now_s - *seen_s < kAlarm_s;
   };
   if (holds(displaced_s_)) alarms.push_back(alarm::ptu_moved_unconnected());
-  if (contradicted_) alarms.push_back(alarm::ptu_positions_contradict_pictures());
+  if (holds(frozen_s_) || holds(contradicted_s_))
+    alarms.push_back(alarm::ptu_positions_contradict_pictures());
   if (holds(unordered_s_)) {
     alarms.push_back(alarm::ptu_moves_unordered());
   } else if (holds(picture_moved_s_)) {

@@ -40,6 +40,7 @@ struct Space {
 // velocity (continuous).
 struct Moves {
   std::optional<Space> absolute, continuous;
+  double least_lease_s = 0.0;  // a shorter lease of a velocity is not possible
 };
 
 // The linear relation between the angle of an axis and the mount's numbers. A negative factor means
@@ -90,13 +91,9 @@ class Drive {
   void see(const SeenTurn& turn);
 
   // The samples since the last call. There are none while the reported positions do not follow the
-  // orders or contradict the pictures, nor, after a motion without a connection, before the mount
-  // has come to rest.
-  std::vector<AngleSample> take_samples() {
-    auto samples = intake_.take();
-    if (distrusted_ || contradicted_ || displaced_) samples.clear();
-    return samples;
-  }
+  // orders, for half a minute after they stayed while the pictures moved, nor, after a motion
+  // without a connection, before the mount has come to rest.
+  std::vector<AngleSample> take_samples();
   const Limits& limits() const { return limits_; }
   bool has_position() const { return !seen_.empty(); }
   // Whether no motion is ordered and the reported positions do not change.
@@ -174,9 +171,8 @@ class Drive {
   std::deque<Seen> seen_;  // positions of the last 0.6 s
   Travel pan_travel_, tilt_travel_;
   std::optional<Way> way_;
-  // true: the reported positions have not followed an order, or have contradicted the pictures, and
-  // this is so for every order since then
-  bool distrusted_ = false, contradicted_ = false;
+  // true: the reported positions have not followed an order, nor any since then
+  bool distrusted_ = false;
   // Where the mount can be by its last order; set when the connection is lost in motion.
   std::optional<AngleBox> may_be_in_;
   double displaced_since_s_ = -1e9;  // or since when it last moved
@@ -184,9 +180,12 @@ class Drive {
   bool was_lost_ = false;   // and no position was reported since
   // No motion is ordered before this time, because the mount has refused or ignored one.
   double refused_until_s_ = -1e9;
-  // Times at which it was last observed that the mount moved without an order, did not stop, or
-  // ignored an order.
+  bool is_sent_ = false;  // a motion, and neither done() nor failed() was called
+  // Times at which it was last observed that the mount moved without an order, did not stop,
+  // ignored an order, or had moved without a connection.
   std::optional<double> unordered_s_, unstopped_s_, ignored_s_, displaced_s_;
+  // The same: the reported positions stayed while the pictures moved, and the reverse.
+  std::optional<double> frozen_s_, contradicted_s_;
 
   PictureMotion picture_;
   bool picture_moves_ = false;

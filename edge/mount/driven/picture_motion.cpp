@@ -54,7 +54,7 @@ void PictureMotion::add(const SeenTurn& turn, double tilt_rad) {
   turns_.push_back(turn);
   turns_.back().turn.pan_rad *= std::cos(tilt_rad);
   turns_.back().sd.pan_rad *= std::cos(tilt_rad);
-  while (turn.to_s - turns_.front().from_s > kPath_s) turns_.pop_front();
+  while (!turns_.empty() && turn.to_s - turns_.front().from_s > kPath_s) turns_.pop_front();
 }
 
 PictureMotion::Is PictureMotion::judge(double since_s) const {

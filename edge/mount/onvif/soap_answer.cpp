@@ -264,6 +264,7 @@ PtzOptions options(const std::string& text) {
   const Node options = answer.required(answer.response(), "PTZConfigurationOptions");
   PtzOptions result = moves(answer, answer.required(options, "Spaces"));
   result.timeout = timeouts(options);
+  if (result.timeout) result.least_lease_s = result.timeout->min;
   return result;
 }
 

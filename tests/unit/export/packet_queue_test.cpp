@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,27 @@ TEST(PacketQueue, TheNewestOfASubjectWinsAndWaitsBehindWhatIsOlder) {
   queue.put({"a", "1"});
   queue.put({"b", "2"});
   queue.put({"a", "3"});
-  EXPECT_EQ(queue.size(), 2U);
-  EXPECT_EQ(queue.displaced(), 1U);
-  EXPECT_EQ(all(queue), (std::vector<std::string>{"2", "3"}));
   queue.put({"a", "4"});
-  EXPECT_EQ(all(queue), (std::vector<std::string>{"4"}));
+  EXPECT_EQ(queue.size(), 3U);
+  EXPECT_EQ(queue.displaced(), 1U);
+  EXPECT_EQ(all(queue), (std::vector<std::string>{"1", "2", "4"}));
+  queue.put({"a", "5"});
+  EXPECT_EQ(all(queue), (std::vector<std::string>{"5"}));
+}
+
+TEST(PacketQueue, OverASlowConnectionEachSubjectHasItsTurnInTheOrderOfTimes) {
+  PacketQueue queue;
+  std::map<std::string, int> sent;
+  int before = -1;
+  for (int time = 0; time < 30; ++time) {
+    for (const char* subject : {"a", "b", "c"}) queue.put({subject, std::to_string(time)});
+    const auto packet = queue.take();
+    ++sent[packet->subject];
+    EXPECT_LE(before, std::stoi(packet->bytes));
+    before = std::stoi(packet->bytes);
+  }
+  EXPECT_EQ(sent, (std::map<std::string, int>{{"a", 10}, {"b", 10}, {"c", 10}}));
+  EXPECT_GT(before, 24);
 }
 
 TEST(PacketQueue, WithoutASubjectNoneIsReplaced) {
@@ -38,7 +55,7 @@ TEST(PacketQueue, TheOldestGivesWay) {
   for (int i = 0; i < 10; ++i) queue.put({std::to_string(i), std::to_string(i)});
   EXPECT_EQ(queue.displaced(), 7U);
   queue.put({"8", "eight"});
-  EXPECT_EQ(all(queue), (std::vector<std::string>{"7", "9", "eight"}));
+  EXPECT_EQ(all(queue), (std::vector<std::string>{"8", "9", "eight"}));
 }
 
 TEST(PacketQueue, WhatIsClearedWasDisplaced) {
