@@ -24,7 +24,7 @@ namespace {
 
 // Some cameras send a picture that can be decoded alone only every ten seconds.
 constexpr double kFirstPicture_s = 15.0;
-constexpr double kFault_s = 3.0;    // a fault that lasts so long stays
+constexpr double kFault_s = 8.0;    // a fault that lasts so long stays
 constexpr double kSettles_s = 1.0;  // automatic exposure
 constexpr int kMostColumns = 100;
 

@@ -14,6 +14,7 @@ from ols_demo.evaluate import errors_enu, solved
 from ols_demo.recording import Recording
 
 EAVESDROPPED = 500  # messages kept of each channel
+LONGEST_S = 30.0  # until a genuine message of each kind was heard
 FALSE_M = 20.0  # a target this far from the true one is another
 TRACKING = ols_msg.station_status_t.STATE_TRACKING
 
@@ -118,6 +119,16 @@ class Watch:
         self.phase = Phase(time.time_ns() // 1000)
 
     def eavesdropped(self) -> dict[str, list[bytes]]:
+        """By channel; waits until each station was heard, and was sent a slew: on a busy machine a
+        fusion's first slew may come after the first bearings."""
+        kinds = ("BEARING", "STATUS", "SLEW")
+        wanted = {f"OLS_{kind}_{station}" for kind in kinds for station in self.stations}
+        end = time.monotonic() + LONGEST_S
+        while not wanted <= self.heard.keys():
+            if time.monotonic() > end:
+                missing = ", ".join(sorted(wanted - self.heard.keys()))
+                raise TimeoutError(f"not heard within {LONGEST_S:.0f} s: {missing}")
+            self.handle(0.1)
         return {channel: list(messages) for channel, messages in self.heard.items()}
 
     def counted(self, victim: str) -> dict[str, float]:
