@@ -15,12 +15,12 @@
 #include <vector>
 
 #include "dev/bench/program.h"
+#include "dev/bench/true_land.h"
 #include "edge/skyline/picture_heading.h"
 #include "geometry/angles.h"
 #include "geometry/direction.h"
 #include "land/column_march.h"
 #include "land/terrain_folder.h"
-#include "sim/world/relief.h"
 #include "sim/world/texture.h"
 
 namespace {
@@ -36,33 +36,6 @@ struct Options {
   bool all_around = false;
   double elsewhere_deg = 0.0;
   unsigned seed = 1;
-};
-
-// The land with errors.
-class TrueLand : public land::Surface {
- public:
-  TrueLand(const land::Surface& model, const Geodetic& centre, double factor, unsigned seed)
-      : model_(model), frame_(centre), errors_(factor, land::kLowered_m, seed) {}
-
-  std::optional<land::SurfaceHeight> ground(double latitude_rad,
-                                            double longitude_rad) const override {
-    constexpr double kSea_m = 61.0;  // above the ellipsoid there
-    auto known = model_.ground(latitude_rad, longitude_rad);
-    if (!known || known->height_m < kSea_m) return known;
-    const Eigen::Vector2d at =
-        frame_.to_enu(ecef_from_geodetic({latitude_rad, longitude_rad, 0.0})).head<2>();
-    known->height_m += known->sd_m * errors_.at(at);
-    known->sd_m = 0.0;
-    return known;
-  }
-  std::optional<land::SurfaceHeight> top(double latitude_rad, double longitude_rad) const override {
-    return ground(latitude_rad, longitude_rad);
-  }
-
- private:
-  const land::Surface& model_;
-  LocalFrame frame_;
-  sim::ErrorField errors_;
 };
 
 struct Tree {  // in front of the skyline
@@ -243,7 +216,7 @@ struct Sum {
 void run_site(const land::TerrainFolder& folder, const Options& options, unsigned seed, Sum& sum) {
   std::mt19937_64 generator(seed);
   Geodetic place = place_of(folder, generator);
-  const TrueLand land(*folder.terrain, place, options.land_errors, seed);
+  const bench::TrueLand land(*folder.terrain, place, options.land_errors, land::kLowered_m, seed);
   place.height_m = land.ground(place.latitude_rad, place.longitude_rad)->height_m + 3.0;
   std::normal_distribution<double> normal(0.0, 1.0);
   const Eigen::Vector3d off_m(normal(generator), normal(generator), normal(generator));

@@ -18,6 +18,7 @@
 
 #include "dev/bench/drawn_skyline.h"
 #include "dev/bench/program.h"
+#include "dev/bench/true_land.h"
 #include "edge/skyline/expected_skyline.h"
 #include "edge/skyline/skyline_watch.h"
 #include "geometry/angles.h"
@@ -25,38 +26,10 @@
 #include "land/column_march.h"
 #include "land/terrain_folder.h"
 #include "sim/world/panorama.h"
-#include "sim/world/relief.h"
 
 namespace {
 
 using namespace ols;
-
-// The land with errors.
-class TrueLand : public land::Surface {
- public:
-  TrueLand(const land::Surface& model, const Geodetic& centre, double length_m, unsigned seed)
-      : model_(model), frame_(centre), errors_(1.0, length_m, seed) {}
-
-  std::optional<land::SurfaceHeight> ground(double latitude_rad,
-                                            double longitude_rad) const override {
-    auto known = model_.ground(latitude_rad, longitude_rad);
-    constexpr double kSea_m = 61.0;  // above the ellipsoid there
-    if (!known || known->height_m < kSea_m) return known;
-    const Eigen::Vector2d at =
-        frame_.to_enu(ecef_from_geodetic({latitude_rad, longitude_rad, 0.0})).head<2>();
-    known->height_m += known->sd_m * errors_.at(at);
-    known->sd_m = 0.0;
-    return known;
-  }
-  std::optional<land::SurfaceHeight> top(double latitude_rad, double longitude_rad) const override {
-    return ground(latitude_rad, longitude_rad);
-  }
-
- private:
-  const land::Surface& model_;
-  LocalFrame frame_;
-  sim::ErrorField errors_;
-};
 
 constexpr int kTrees = 2400, kRound = 36;
 constexpr double kInterval_s = 5.0;  // from picture to picture
@@ -132,7 +105,7 @@ Site make_site(const land::TerrainFolder& folder, const Options& options, unsign
   site.generator.seed(seed);
   site.camera = camera_of();
   Geodetic place = place_of(folder, site.generator);
-  const TrueLand truth(*folder.terrain, place, options.length_m, seed);
+  const bench::TrueLand truth(*folder.terrain, place, 1.0, options.length_m, seed);
   place.height_m = truth.ground(place.latitude_rad, place.longitude_rad)->height_m + 5.0;
   std::normal_distribution<double> normal(0.0, options.position_sd_m);
   const Eigen::Vector3d off_m(normal(site.generator), normal(site.generator),
