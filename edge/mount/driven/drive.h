@@ -9,14 +9,16 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <vector>
 
 #include "conditions/alarm.h"
 #include "edge/mount/angle_history.h"
-#include "edge/mount/driven/picture_motion.h"
+#include "edge/mount/driven/ordered_motion.h"
+#include "edge/mount/driven/picture_watch.h"
 #include "edge/mount/driven/position_intake.h"
+#include "edge/mount/driven/position_watch.h"
+#include "edge/mount/driven/recent_positions.h"
 #include "edge/mount/goal.h"
 #include "edge/mount/limits.h"
 #include "edge/ptu/servo.h"
@@ -95,58 +97,30 @@ class Drive {
   // without a connection, before the mount has come to rest.
   std::vector<AngleSample> take_samples();
   const Limits& limits() const { return limits_; }
-  bool has_position() const { return !seen_.empty(); }
+  bool has_position() const { return !positions_.empty(); }
   // Whether no motion is ordered and the reported positions do not change.
-  bool stands() const { return motion_ == Motion::kNone && !moves(); }
+  bool stands() const { return ordered_.kind == OrderedMotion::Kind::kNone && !positions_.move(); }
   std::optional<double> last_position_s() const;
   const PositionIntake& intake() const { return intake_; }
   std::vector<Alarm> alarms(double now_s) const;
 
-  struct Counters {
-    std::uint64_t stops_repeated = 0, unordered_motions = 0, orders_ignored = 0, emergencies = 0;
-    std::uint64_t moved_unconnected = 0;     // motions while there was no connection
+  struct Counters : PositionWatch::Counters {
+    std::uint64_t stops_repeated = 0, emergencies = 0;
     std::uint64_t unordered_in_picture = 0;  // motions without an order that the pictures showed
   };
-  const Counters& counters() const { return counters_; }
+  Counters counters() const;
 
  private:
-  enum class Motion { kNone, kVelocity, kAbsolute };
-  struct Seen {
-    double time_s;
-    PanTilt angles;
-  };
-  // The ordered and the reported travel of one axis in the present direction.
-  struct Travel {
-    double since_s = 0.0, ordered_rad = 0.0, from_rad = 0.0;
-    int sign = 0;
-    double begun_s = 0.0;  // of the motion in this direction; since_s is that of its last part
-  };
-  // An ordered move to a position that is not judged yet.
-  struct Way {
-    double since_s;
-    PanTilt from;
-  };
-
-  bool moves_since(double time_s) const;
-  bool moves() const { return moves_since(-1e9); }
-  double seen_motion_rad() const;
   bool stop_is_due(double now_s) const;
   Order stop_order() const;
+  void want_stop();
+  void obey(Demand demand, double now_s);
   std::optional<PanTilt> wanted_rate(double now_s) const;
   Order motion(double now_s);
   std::optional<Order> last_piece(double now_s) const;
   PanTilt angles_now(double now_s) const;
-  PanTilt end_of_motion() const;
-  void add_travel(Travel& travel, double rate_rad_s, double angle_rad, double now_s);
-  void judge_travel(const Travel& travel, double angle_rad, double now_s);
-  void begin_way(double now_s);
-  void judge_way(const PanTilt& angles, double now_s);
-  void judge_pictures_of_motion(double since_s, double way_rad, double now_s);
-  void give_up_motion(double now_s);
-  void judge_place_after_loss(const PanTilt& angles, double now_s);
-  void judge_rest(double now_s);
-  void move_in_picture(double time_s, bool moved_before);
-  void judge_positions(double time_s);
+  void stop_accepted(double now_s);
+  void motion_accepted(const Order& order, double now_s);
 
   DriveConfig config_;
   Limits limits_ = config_.limits;
@@ -154,47 +128,20 @@ class Drive {
   PositionIntake intake_;
   std::optional<Goal> goal_;
   bool emergency_ = false;
+  std::uint64_t emergencies_ = 0, stops_repeated_ = 0;
 
-  Motion motion_ = Motion::kNone;
-  PanTilt rate_;              // [rad/s] the ordered rate
-  PanTilt absolute_;          // the ordered position
-  double ordered_s_ = 0.0;    // time of the last order of a motion
-  double moved_for_s_ = 0.0;  // time of the newest position when that order was given
+  OrderedMotion ordered_;
+  double moved_for_s_ = 0.0;  // time of the newest position when the last motion was ordered
   double asked_s_ = -1e9;     // time of the last question for the position
   bool stop_wanted_ = true;
-  int stops_ = 0;                        // number of stops since the last motion
-  double stop_s_ = -1e9;                 // time of the last stop
-  std::optional<double> rests_since_s_;  // time of the first accepted stop since the last motion
-  std::optional<PanTilt> rest_;          // position at which the mount came to rest
-  std::optional<double> arrived_s_;      // when it was first reported at the ordered position
-
-  std::deque<Seen> seen_;  // positions of the last 0.6 s
-  Travel pan_travel_, tilt_travel_;
-  std::optional<Way> way_;
-  // true: the reported positions have not followed an order, nor any since then
-  bool distrusted_ = false;
-  // Where the mount can be by its last order; set when the connection is lost in motion.
-  std::optional<AngleBox> may_be_in_;
-  double displaced_since_s_ = -1e9;  // or since when it last moved
-  bool displaced_ = false;  // it has moved without a connection, and has not come to rest since
-  bool was_lost_ = false;   // and no position was reported since
+  int stops_ = 0;  // number of stops since the last motion
   // No motion is ordered before this time, because the mount has refused or ignored one.
   double refused_until_s_ = -1e9;
   bool is_sent_ = false;  // a motion, and neither done() nor failed() was called
-  // Times at which it was last observed that the mount moved without an order, did not stop,
-  // ignored an order, or had moved without a connection.
-  std::optional<double> unordered_s_, unstopped_s_, ignored_s_, displaced_s_;
-  // The same: the reported positions stayed while the pictures moved, and the reverse.
-  std::optional<double> frozen_s_, contradicted_s_;
 
-  PictureMotion picture_;
-  bool picture_moves_ = false;
-  bool picture_rested_ = false;  // the picture was at rest since the last order of a motion
-  PanTilt picture_rest_;         // the reported position at that time
-  // When the pictures showed a motion without an order: the last time, and the first time of a
-  // motion for which the positions are not judged yet.
-  std::optional<double> picture_moved_s_, picture_moved_since_s_;
-  Counters counters_;
+  RecentPositions positions_{config_.positions.sd_rad};
+  PositionWatch position_watch_;
+  PictureWatch picture_watch_;
 };
 
 }  // namespace ols::mount
