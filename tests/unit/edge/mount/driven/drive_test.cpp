@@ -351,6 +351,17 @@ TEST_F(DriveTest, AnOrderWhoseAnswerIsLostExplainsAMotion) {
   EXPECT_EQ(alarms(), "");
 }
 
+TEST_F(DriveTest, AGoalAtRestIsOrderedOnceHoweverNearItIs) {
+  moves.absolute = Space{{-1.0, 1.0}, {-1.0, 1.0}};
+  start();
+  run(5.0);
+  run(8.0, [this](double) { return rest(0.03, 0.0); });
+  EXPECT_NEAR(pan_deg(), 0.03, 1e-6) << "a third of a position's sigma away";
+  EXPECT_EQ(camera.places, 1) << "what is reported there is its scatter";
+  run(5.0, [this](double time_s) { return rest(0.05 + 0.02 * std::sin(7.0 * time_s), 0.0); });
+  EXPECT_LE(camera.places, 7) << "a goal that scatters is not followed at each step";
+}
+
 TEST_F(DriveTest, AMoveToAPositionThatIsNotCarriedOutIsTold) {
   for (const bool stream : {false, true}) {  // of goals, faster than a move is judged
     camera = {};
