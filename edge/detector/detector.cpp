@@ -105,7 +105,10 @@ Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
     join(result.detections, *movers);
     join(result.detections, dim_.find(gray, time_s, motion), book_.tracklets());
   }
-  book_.advance(result.detections, motion, interval_s, stars);
+  appearances_.next_image(gray, time_s);
+  book_.advance(result.detections, motion, interval_s, stars,
+                [this](const Tracklet& one) { return appearances_.find(one); });
+  appearances_.learn(book_.tracklets());
   return result;
 }
 

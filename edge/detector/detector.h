@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "edge/detector/appearance_book.h"
 #include "edge/detector/dim_finder.h"
 #include "edge/detector/mover_finder.h"
 #include "edge/detector/spot_finder.h"
@@ -51,6 +52,7 @@ class Detector {
   MoverFinder movers_;
   DimFinder dim_;
   TrackletBook book_;
+  AppearanceBook appearances_;
   std::optional<double> time_s_;  // of the newest image
   long suspended_images_ = 0;
 };

@@ -105,13 +105,32 @@ double Tracklet::density(const Detection& detection) const {
          (2.0 * std::numbers::pi * innovation_variance(detection));
 }
 
-void Tracklet::update(const Detection& detection) {
-  const Eigen::Vector2d gain = covariance_.col(0) / innovation_variance(detection);
-  const Eigen::Vector2d off = detection.pixel - pixel_;
+void Tracklet::correct(const Eigen::Vector2d& pixel, double variance_px2) {
+  const Eigen::Vector2d gain = covariance_.col(0) / (covariance_(0, 0) + variance_px2);
+  const Eigen::Vector2d off = pixel - pixel_;
   pixel_ += gain(0) * off;
   velocity_px_s_ += gain(1) * off;
   covariance_ -= gain * covariance_.row(0).eval();
+}
+
+void Tracklet::update(const Detection& detection) {
+  correct(detection.pixel, detection.sd_px() * detection.sd_px());
   count(detection);
+}
+
+void Tracklet::recognised(const Eigen::Vector2d& pixel) {
+  const double sd_px = 0.5 + 0.1 * std::sqrt(std::max(1.0, size_px_.prod()));
+  correct(pixel, sd_px * sd_px);
+  be_seen_at(pixel, sd_px);
+}
+
+void Tracklet::compare_size(const Detection& detection) {
+  constexpr double kMost = 1.5;    // of the areas' ratio
+  constexpr double kAside = 0.25;  // of the size
+  const double ratio = detection.size_px.prod() / size_px_.prod();
+  const Eigen::Vector2d off = (detection.pixel - pixel_).cwiseQuotient(size_px_);
+  if (ratio < kMost && ratio > 1.0 / kMost && off.cwiseAbs().maxCoeff() < kAside)
+    size_px_ += kLearning * (detection.size_px - size_px_);
 }
 
 void Tracklet::leap(const Detection& detection, double image_width_px) {
@@ -128,12 +147,16 @@ bool Tracklet::resembles(const Detection& detection) const {
 void Tracklet::count(const Detection& detection) {
   size_px_ += kLearning * (detection.size_px - size_px_);
   signal_to_noise_ += kLearning * (detection.signal_to_noise - signal_to_noise_);
-  measured_pixel_ = detection.pixel;
-  measured_sd_px_ = detection.sd_px();
   measured_size_px_ = detection.size_px;
   ++detections_;
   if (detection.clear) ++clear_;
   if (detection.path) path_ = detection.path->id;
+  be_seen_at(detection.pixel, detection.sd_px());
+}
+
+void Tracklet::be_seen_at(const Eigen::Vector2d& pixel, double sd_px) {
+  measured_pixel_ = pixel;
+  measured_sd_px_ = sd_px;
   unseen_s_ = 0.0;
   unseen_images_ = 0;
   seen_ = true;

@@ -29,6 +29,12 @@ class Tracklet {
     ++unseen_images_;
   }
 
+  // Call instead of update() if the object was recognised at this pixel by its appearance.
+  void recognised(const Eigen::Vector2d& pixel);
+  // Takes the size of a detection that has about the object's size and place. Another one shows
+  // only a part of the object, or what is beside it, too.
+  void compare_size(const Detection& detection);
+
   // Whether the detection has about the tracklet's size, and differs from its surroundings in the
   // same direction (brighter or darker).
   bool resembles(const Detection& detection) const;
@@ -63,7 +69,7 @@ class Tracklet {
   // show the object. unseen_images(): the number of images since its last detection.
   const std::optional<long>& path() const { return path_; }
   int unseen_images() const { return unseen_images_; }
-  bool seen() const { return seen_; }  // whether it was detected in the newest image
+  bool seen() const { return seen_; }  // whether it was detected or recognised in the newest image
   double unseen_s() const { return unseen_s_; }
   double age_s() const { return age_s_; }
   bool mostly_clear() const { return clear_ > 0.7 * detections_; }
@@ -92,8 +98,10 @@ class Tracklet {
  private:
   void begin_motion(const Detection& detection, double image_width_px);
   void count(const Detection& detection);
+  void be_seen_at(const Eigen::Vector2d& pixel, double sd_px);
   void measure_way(double interval_s);
   double innovation_variance(const Detection& detection) const;
+  void correct(const Eigen::Vector2d& pixel, double variance_px2);
 
   long id_;
   Eigen::Vector2d pixel_, velocity_px_s_ = Eigen::Vector2d::Zero(), size_px_;

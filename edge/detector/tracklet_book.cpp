@@ -166,9 +166,31 @@ bool TrackletBook::hopeless(const Tracklet& tracklet) const {
   return tracklet.log_ratio() < kRejected || tracklet.unseen_s() > 0.5 * config_.coast_s;
 }
 
+// Detections against the ground often show only a part of an object, or what is beside it, too.
+// There, the appearance of a confirmed object gives its place, as long as it is recognised.
+void TrackletBook::advance(Tracklet& tracklet, const Detection* detection,
+                           const Recognise& recognise) {
+  if (detection) {
+    weigh_hit(tracklet, *detection);
+    if (!tracklet.confirmed()) clutter_of(*detection).add_detection(detection->pixel);
+  }
+  const bool well_detected = detection && tracklet.mostly_clear();
+  const bool by_appearance = recognise && tracklet.confirmed() && !well_detected;
+  if (const auto pixel = by_appearance ? recognise(tracklet) : std::nullopt) {
+    tracklet.recognised(*pixel);
+    if (detection) tracklet.compare_size(*detection);
+  } else if (detection) {
+    tracklet.update(*detection);
+  } else {
+    tracklet.miss();
+    return weigh_miss(tracklet);
+  }
+  judge(tracklet);
+}
+
 void TrackletBook::advance(const std::vector<Detection>& detections,
                            const std::optional<Eigen::Matrix3d>& motion, double interval_s,
-                           const Stars& stars) {
+                           const Stars& stars, const Recognise& recognise) {
   constexpr double kForget_s = 1.0;  // a pause: what is there now may be any other object
   clutter_.next_image(interval_s);
   stack_clutter_.next_image(interval_s);
@@ -181,18 +203,10 @@ void TrackletBook::advance(const std::vector<Detection>& detections,
   const std::vector<int> assigned = assign(detections);
   std::vector<bool> taken(detections.size(), false);
   for (std::size_t i = 0; i < tracklets_.size(); ++i) {
-    Tracklet& tracklet = tracklets_[i];
-    if (assigned[i] < 0) {
-      tracklet.miss();
-      weigh_miss(tracklet);
-      continue;
-    }
-    const auto index = static_cast<std::size_t>(assigned[i]);
-    taken[index] = true;
-    weigh_hit(tracklet, detections[index]);
-    if (!tracklet.confirmed()) clutter_of(detections[index]).add_detection(detections[index].pixel);
-    tracklet.update(detections[index]);
-    judge(tracklet);
+    const Detection* const detection =
+        assigned[i] < 0 ? nullptr : &detections[static_cast<std::size_t>(assigned[i])];
+    if (detection) taken[static_cast<std::size_t>(assigned[i])] = true;
+    advance(tracklets_[i], detection, recognise);
   }
   leap(detections, taken);
   std::erase_if(tracklets_, [this](const Tracklet& tracklet) { return hopeless(tracklet); });

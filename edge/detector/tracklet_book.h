@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct TrackletConfig {
   double coast_s = 0.4;  // how long a confirmed tracklet is kept without detections
 };
 
+// Where a confirmed object is in the newest image by its appearance; nullopt if it is not
+// recognised.
+using Recognise = std::function<std::optional<Eigen::Vector2d>(const Tracklet&)>;
+
 class TrackletBook {
  public:
   TrackletBook(const TrackletConfig& config, const cv::Size& image);
@@ -37,12 +42,13 @@ class TrackletBook {
   // `motion` maps pixels of the previous image to the present one; nullopt if unknown.
   void advance(const std::vector<Detection>& detections,
                const std::optional<Eigen::Matrix3d>& motion, double interval_s,
-               const Stars& stars = {});
+               const Stars& stars = {}, const Recognise& recognise = {});
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }
 
  private:
   std::vector<int> assign(const std::vector<Detection>& detections) const;
   double distance(const Tracklet& tracklet, const Detection& detection) const;
+  void advance(Tracklet& tracklet, const Detection* detection, const Recognise& recognise);
   void leap(const std::vector<Detection>& detections, std::vector<bool>& taken);
   void weigh_hit(Tracklet& tracklet, const Detection& detection);
   void weigh_miss(Tracklet& tracklet);

@@ -28,7 +28,12 @@ def detect(clip: Clip, output: Path) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/bench detection", description=__doc__)
     folders = "folders of OLS_SHARED/data (default: %(default)s)"
-    parser.add_argument("folders", nargs="*", default=["tracking", "tracking_ground"], help=folders)
+    parser.add_argument(
+        "folders",
+        nargs="*",
+        default=["tracking", "tracking_ground", "tracking_ground2"],
+        help=folders,
+    )
     parser.add_argument("--output", type=Path, default=ROOT / "out/detection")
     given = parser.parse_args()
     if not os.environ.get("OLS_SHARED"):

@@ -237,6 +237,32 @@ TEST(Detector, FindsALargeMoverBeforeTheGround) {
   EXPECT_NEAR(only->pixel().y(), 132, 6.0);
 }
 
+// Something with light and dark parts that has moved by 3 px an image, up to image `last`.
+cv::Mat walker_on_ground(int image, int last) {
+  cv::Mat picture = ground(0.0);
+  const int x = 40 + 3 * std::min(image, last);
+  cv::rectangle(picture, cv::Rect(x, 110, 14, 36), cv::Scalar(30.0), cv::FILLED);
+  cv::rectangle(picture, cv::Rect(x + 2, 114, 10, 10), cv::Scalar(220.0), cv::FILLED);
+  return picture;
+}
+
+TEST(Detector, RecognisesWhatStopsBeforeTheGround) {
+  constexpr int kStops = 45, kLater = 45;  // after a second, the scene contains it
+  const Watch watch([](int i) { return walker_on_ground(i, kStops); }, kStops + kLater);
+  const auto only = watch.only();
+  ASSERT_TRUE(only);
+  EXPECT_TRUE(only->seen());
+  EXPECT_NEAR(only->pixel().x(), 40 + 3 * kStops + 7, 7.0) << "on it";
+  EXPECT_NEAR(only->pixel().y(), 128, 18.0);
+}
+
+TEST(Detector, DoesNotRecogniseInTheGroundWhatIsGone) {
+  constexpr int kGone = 45, kLater = 20;
+  const auto scene = [](int i) { return i < kGone ? walker_on_ground(i, i) : ground(0.0); };
+  EXPECT_EQ(Watch(scene, kGone).only().has_value(), true);
+  EXPECT_EQ(Watch(scene, kGone + kLater).only().has_value(), false);
+}
+
 TEST(Detector, MovingCameraLeavesTheGroundAloneAndFindsTheMover) {
   constexpr double kTurn_px = 2.3;  // an image
   const Eigen::Vector2d shift(-kTurn_px, 0.0);

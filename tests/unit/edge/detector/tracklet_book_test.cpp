@@ -224,6 +224,49 @@ TEST(TrackletBook, WhatFlewIsNotDoubtedWhenItHoversBeforeTheGround) {
   EXPECT_EQ(confirmed(book), 1);
 }
 
+// Where the book has the object that moves along 100 + 2 * image, after 60 images. From image 40
+// on, its detections are 8 px below it and twice as wide, and its appearance shows where it is.
+Tracklet beside_another(bool clear) {
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 60; ++image) {
+    const Eigen::Vector2d is(100.0 + 2.0 * image, 200.0);
+    Detection detection = clear_spot(is.x(), is.y());
+    detection.clear = clear;
+    detection.size_px = {10.0, 10.0};
+    if (image >= 40) {
+      detection.pixel.y() += 8.0;
+      detection.size_px.x() *= 2.0;
+    }
+    book.advance({detection}, kStill, kTick_s, {}, [&](const Tracklet&) { return is; });
+  }
+  EXPECT_EQ(confirmed(book), 1);
+  return book.tracklets().front();
+}
+
+TEST(TrackletBook, AppearanceGivesThePlaceBeforeTheGroundAndDetectionsBeforeTheSky) {
+  const Tracklet before_ground = beside_another(false), before_sky = beside_another(true);
+  EXPECT_NEAR(before_ground.pixel().y(), 200.0, 0.5);
+  EXPECT_NEAR(before_ground.size_px().x(), 10.0, 0.5) << "of the detections that show it alone";
+  EXPECT_NEAR(before_sky.pixel().y(), 208.0, 1.0);
+}
+
+TEST(TrackletBook, OnlyWhatIsConfirmedIsRecognised) {
+  TrackletBook book(TrackletConfig{}, kView);
+  bool asked = false;
+  const Recognise recognise = [&](const Tracklet& tracklet) {
+    EXPECT_TRUE(tracklet.confirmed());
+    asked = true;
+    return tracklet.pixel();
+  };
+  for (int image = 0; image < 60; ++image) {
+    std::vector<Detection> detections;
+    if (image < 40) detections.push_back(clear_spot(100.0 + 2.0 * image, 200.0));
+    book.advance(detections, kStill, kTick_s, {}, recognise);
+  }
+  EXPECT_TRUE(asked);
+  EXPECT_EQ(confirmed(book), 1) << "recognised for longer than it is kept without";
+}
+
 // Five spots in each image, somewhere in the first tile: waves of a dark sea.
 class Waves {
  public:
