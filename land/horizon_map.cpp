@@ -15,68 +15,10 @@
 namespace ols::land {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kNone = Staircase::kNone;
 
 // Means of the fifths of a standard normal distribution, each as probable as the others.
 constexpr std::array kFifths{-1.39981, -0.53190, 0.0, 0.53190, 1.39981};
-
-using Steps = std::span<const Step>;
-
-double interpolate(double at, double from, double to, double value_from, double value_to) {
-  return to > from ? value_from + (at - from) / (to - from) * (value_to - value_from) : value_to;
-}
-
-struct Height {
-  double elevation_rad = -0.5 * kPi;
-  double sd_rad = 0.0;
-};
-
-// Steeply below the camera a cell is many degrees high. There the land is straight between two
-// steps, not its elevation.
-bool is_steep(const Step& step) { return step.elevation_rad < -0.25F * static_cast<float>(kPi); }
-double up_m(const Step& step) { return step.distance_m * std::tan(double{step.elevation_rad}); }
-
-// Between the camera's foot and the first step the ground is level.
-Height near_foot(const Step& first, double distance_m) {
-  if (first.elevation_rad >= 0.0F || !(distance_m > 0.0)) return {};
-  const double nearer = first.distance_m / distance_m;
-  return {std::atan(std::tan(double{first.elevation_rad}) * nearer),
-          first.elevation_sd_rad * nearer};
-}
-
-Height height_at(Steps steps, double distance_m) {
-  const Step& last = steps.back();
-  if (!(distance_m < last.distance_m)) return {last.elevation_rad, last.elevation_sd_rad};
-  const auto after = std::ranges::upper_bound(steps, distance_m, {}, &Step::distance_m);
-  if (after == steps.begin()) return near_foot(*after, distance_m);
-  const Step& from = after[-1];
-  const auto mix = [&](float Step::*value) {
-    return interpolate(distance_m, from.distance_m, after->distance_m, from.*value,
-                       (*after).*value);
-  };
-  if (!is_steep(from)) return {mix(&Step::elevation_rad), mix(&Step::elevation_sd_rad)};
-  const double at_m =
-      interpolate(distance_m, from.distance_m, after->distance_m, up_m(from), up_m(*after));
-  return {std::atan(at_m / distance_m), mix(&Step::elevation_sd_rad)};
-}
-
-// The first distance where the land is as high; infinite above the skyline.
-double distance_at(Steps steps, double elevation_rad) {
-  const auto at = std::ranges::lower_bound(steps, elevation_rad, {}, &Step::elevation_rad);
-  if (at == steps.end()) return kNone;
-  if (at == steps.begin()) {
-    const double first = std::tan(double{at->elevation_rad}), wanted = std::tan(elevation_rad);
-    return first < 0.0 ? at->distance_m * first / wanted : at->distance_m;
-  }
-  const Step& from = at[-1];
-  const double run_m = double{at->distance_m} - from.distance_m;
-  if (is_steep(from) && run_m > 0.0) {
-    const double slope = (up_m(*at) - up_m(from)) / run_m;
-    return (up_m(from) - slope * from.distance_m) / (std::tan(elevation_rad) - slope);
-  }
-  return interpolate(elevation_rad, from.elevation_rad, at->elevation_rad, from.distance_m,
-                     at->distance_m);
-}
 
 // A camera on top of what the model has there is covered by nothing.
 struct Standing {
@@ -106,13 +48,16 @@ Standing standing_of(const Surface& surface, const Geodetic& camera) {
 }  // namespace
 
 struct HorizonMap::Columns {
-  Steps left, right;
+  Staircase left, right;
   double share_right = 0.0;
 
   bool empty() const { return left.empty() || right.empty(); }
-  Steps nearer() const { return share_right < 0.5 ? left : right; }
-  Height before(double distance_m) const {
-    const Height l = height_at(left, distance_m), r = height_at(right, distance_m);
+  const Staircase& nearer() const { return share_right < 0.5 ? left : right; }
+  LandHeight before(double distance_m) const {
+    return mix(left.before(left.beyond(distance_m), distance_m),
+               right.before(right.beyond(distance_m), distance_m));
+  }
+  LandHeight mix(const LandHeight& l, const LandHeight& r) const {
     return {l.elevation_rad + share_right * (r.elevation_rad - l.elevation_rad),
             l.sd_rad + share_right * (r.sd_rad - l.sd_rad)};
   }
@@ -120,7 +65,7 @@ struct HorizonMap::Columns {
 
 HorizonMap::HorizonMap(const Surface& surface, const Geodetic& camera,
                        const HorizonMapConfig& config)
-    : frame_(camera), config_(config) {
+    : frame_(camera), config_(config), columns_per_rad_(config.columns / (2.0 * kPi)) {
   const Standing standing = standing_of(surface, camera);
   lowered_m_ = standing.lowered_m;
   march_all(surface, standing.covered);
@@ -135,27 +80,24 @@ void HorizonMap::march_all(const Surface& surface, bool covered) {
                                .refraction_k_sd = config_.refraction_k_sd,
                                .lowered_m = lowered_m_,
                                .covered = covered};
+  std::vector<Step> steps;
   for (int column = 0; column < config_.columns; ++column) {
-    begins_.push_back(steps_.size());
     const double azimuth_rad = column * column_rad;
     const double into_rad = wrap_two_pi(azimuth_rad - config_.from_azimuth_rad);
-    const double known_to_m = into_rad <= config_.sector_rad
-                                  ? march(surface, frame_, azimuth_rad, settings, steps_)
-                                  : 0.0;
+    steps.clear();
+    const double known_to_m =
+        into_rad <= config_.sector_rad ? march(surface, frame_, azimuth_rad, settings, steps) : 0.0;
     known_to_m_.push_back(static_cast<float>(known_to_m));
+    columns_.add(steps);
   }
-  begins_.push_back(steps_.size());
-  steps_.shrink_to_fit();
 }
 
 HorizonMap::Columns HorizonMap::beside(double azimuth_rad) const {
-  const double place = wrap_two_pi(azimuth_rad) / (2.0 * kPi) * config_.columns;
-  const auto left = std::min(static_cast<int>(place), config_.columns - 1);
-  const auto of_column = [&](int column) {
-    const auto at = static_cast<std::size_t>(column % config_.columns);
-    return Steps(steps_).subspan(begins_[at], begins_[at + 1] - begins_[at]);
-  };
-  return {of_column(left), of_column(left + 1), place - left};
+  const double place = wrap_two_pi(azimuth_rad) * columns_per_rad_;
+  const int left = std::min(static_cast<int>(place), config_.columns - 1);
+  const int right = left + 1 < config_.columns ? left + 1 : 0;
+  return {columns_[static_cast<std::size_t>(left)], columns_[static_cast<std::size_t>(right)],
+          place - left};
 }
 
 double HorizonMap::cell_m(double distance_m) const {
@@ -169,18 +111,18 @@ std::optional<Skyline> HorizonMap::skyline(double azimuth_rad) const {
 std::optional<Skyline> HorizonMap::highest_before(double azimuth_rad, double distance_m) const {
   const Columns columns = beside(azimuth_rad);
   if (columns.empty()) return std::nullopt;
-  const Height height = columns.before(distance_m);
-  const Steps steps = columns.nearer();
-  const double own_rad = height_at(steps, distance_m).elevation_rad;
+  const LandHeight height = columns.before(distance_m);
+  const Staircase& own = columns.nearer();
+  const double own_rad = own.before(own.beyond(distance_m), distance_m).elevation_rad;
   return Skyline{height.elevation_rad, height.sd_rad,
-                 std::min(distance_m, distance_at(steps, own_rad))};
+                 std::min(distance_m, own.distance_at(own_rad))};
 }
 
 std::optional<GroundHit> HorizonMap::ground(const AzimuthElevation& sight) const {
   const Columns columns = beside(sight.azimuth_rad);
   if (columns.empty()) return std::nullopt;
-  const double left_m = distance_at(columns.left, sight.elevation_rad);
-  const double right_m = distance_at(columns.right, sight.elevation_rad);
+  const double left_m = columns.left.distance_at(sight.elevation_rad);
+  const double right_m = columns.right.distance_at(sight.elevation_rad);
   double near_m = std::min(left_m, right_m), far_m = std::max(left_m, right_m);
   if (far_m == kNone) {
     far_m = config_.reach_m;
@@ -195,8 +137,9 @@ std::optional<GroundHit> HorizonMap::ground(const AzimuthElevation& sight) const
     (below ? near_m : far_m) = middle_m;
   }
   const double step_m = 0.5 * std::min(cell_m(far_m), far_m);
-  const Height nearer = columns.before(far_m - step_m), farther = columns.before(far_m + step_m);
-  const auto range_m = [](double distance_m, const Height& at) {
+  const LandHeight nearer = columns.before(far_m - step_m),
+                   farther = columns.before(far_m + step_m);
+  const auto range_m = [](double distance_m, const LandHeight& at) {
     return distance_m / std::cos(at.elevation_rad);
   };
   const bool is_first = nearer.elevation_rad <= -0.5 * kPi;
@@ -208,13 +151,56 @@ std::optional<GroundHit> HorizonMap::ground(const AzimuthElevation& sight) const
                                                      range_m(far_m - step_m, nearer))};
 }
 
-double HorizonMap::probability_at(const Columns& columns, double distance_m, double elevation_rad,
-                                  double elevation_sd_rad) const {
-  const Height land = columns.before(distance_m);
-  const double above_rad = elevation_rad - land.elevation_rad;
-  const double sd_rad = std::hypot(elevation_sd_rad, land.sd_rad);
+// A point on one azimuth, as normally distributed as is known.
+struct HorizonMap::OnAzimuth {
+  double distance_m, distance_sd_m;
+  double elevation_rad, rise_rad;  // mean; change by one sigma of distance
+  double elevation_sd_rad;         // for a given distance
+};
+
+namespace {
+
+double probability_above(double above_rad, double sd_rad) {
   if (sd_rad == 0.0) return above_rad > 0.0 ? 1.0 : 0.0;
   return normal_level(-above_rad / sd_rad);
+}
+
+}  // namespace
+
+// The sum over distances `offsets` sigmas from the mean; the offsets ascend. Most points are
+// clearly above or below all land up to there: then, two look-ups decide.
+double HorizonMap::sum_visible(const Columns& columns, const OnAzimuth& point,
+                               std::span<const double> offsets) {
+  constexpr double kClear = 6.0;  // sigmas
+  const auto distance_m = [&](double offset) {
+    return point.distance_m + point.distance_sd_m * offset;
+  };
+  const auto sd_rad = [&](const LandHeight& land) {
+    return std::sqrt(point.elevation_sd_rad * point.elevation_sd_rad + land.sd_rad * land.sd_rad);
+  };
+  const double from_m = distance_m(offsets.front()), to_m = distance_m(offsets.back());
+  std::size_t left = columns.left.beyond(from_m), right = columns.right.beyond(from_m);
+  const auto land_before = [&](double at_m) {
+    left = columns.left.beyond_from(left, at_m);
+    right = columns.right.beyond_from(right, at_m);
+    return columns.mix(columns.left.before(left, at_m), columns.right.before(right, at_m));
+  };
+  const std::size_t first_left = left, first_right = right;
+  const LandHeight nearest = land_before(from_m), farthest = land_before(to_m);
+  const double clear_rad = kClear * std::max(sd_rad(nearest), sd_rad(farthest));
+  const double half_rad = std::abs(point.rise_rad) * offsets.back();
+  if (point.elevation_rad - half_rad > farthest.elevation_rad + clear_rad)
+    return static_cast<double>(offsets.size());
+  if (point.elevation_rad + half_rad < nearest.elevation_rad - clear_rad) return 0.0;
+  left = first_left;
+  right = first_right;
+  double sum = 0.0;
+  for (const double offset : offsets) {
+    const LandHeight land = land_before(distance_m(offset));
+    const double elevation_rad = point.elevation_rad + point.rise_rad * offset;
+    sum += probability_above(elevation_rad - land.elevation_rad, sd_rad(land));
+  }
+  return sum;
 }
 
 // Azimuth, distance and elevation of the point are jointly normal. Over azimuth and distance the
@@ -255,16 +241,14 @@ double HorizonMap::visible_probability(const Eigen::Vector3d& p_ecef,
       sum += static_cast<double>(along.size());
       continue;
     }
-    for (const double b : along) {
-      sum += probability_at(columns, distance_m + l10 * a + l11 * b,
-                            elevation_rad + l20 * a + l21 * b, l22);
-    }
+    sum +=
+        sum_visible(columns, {distance_m + l10 * a, l11, elevation_rad + l20 * a, l21, l22}, along);
   }
   return sum / static_cast<double>(across.size() * along.size());
 }
 
 double HorizonMap::known_to_m(double azimuth_rad) const {
-  const double place = wrap_two_pi(azimuth_rad) / (2.0 * kPi) * config_.columns;
+  const double place = wrap_two_pi(azimuth_rad) * columns_per_rad_;
   return known_to_m_[static_cast<std::size_t>(std::lround(place) % config_.columns)];
 }
 

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@
 #include "geometry/direction.h"
 #include "geometry/wgs84.h"
 #include "land/refraction.h"
-#include "land/staircase.h"
+#include "land/staircases.h"
 #include "land/surface.h"
 
 namespace ols::land {
@@ -83,26 +84,26 @@ class HorizonMap {
   double lowered_m() const { return lowered_m_; }
   const Geodetic& camera() const { return frame_.origin(); }
   const HorizonMapConfig& config() const { return config_; }
-  std::size_t step_count() const { return steps_.size(); }
+  std::size_t step_count() const { return columns_.step_count(); }
 
   static constexpr double kLeastAboveGround_m = 1.0;
 
  private:
   struct Columns;  // the two columns next to an azimuth
+  struct OnAzimuth;
 
   Columns beside(double azimuth_rad) const;
   void march_all(const Surface& surface, bool covered);
   double cell_m(double distance_m) const;
-  double probability_at(const Columns& columns, double distance_m, double elevation_rad,
-                        double elevation_sd_rad) const;
+  static double sum_visible(const Columns& columns, const OnAzimuth& point,
+                            std::span<const double> offsets);
 
   LocalFrame frame_;
   HorizonMapConfig config_;
+  double columns_per_rad_;
   double lowered_m_ = 0.0;
-  std::vector<Step> steps_;  // of all columns; within a column, neither elevation nor distance
-                             // descends
-  std::vector<std::size_t> begins_;  // index into steps_ of each column's first step, then the end
-  std::vector<float> known_to_m_;    // by column
+  Staircases columns_;
+  std::vector<float> known_to_m_;  // by column
 };
 
 }  // namespace ols::land
