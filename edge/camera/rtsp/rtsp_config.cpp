@@ -1,8 +1,12 @@
 #include "edge/camera/rtsp/rtsp_config.h"
 
+#include <glib.h>
+
 #include <algorithm>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
+#include <string_view>
 
 #include "edge/device/certificate_key.h"
 
@@ -17,6 +21,18 @@ std::size_t host_at(const std::string& url) {
   return 0;
 }
 
+// For cameras that want user and password in the path or after it.
+constexpr std::string_view kUser = "{user}", kPassword = "{password}";
+
+// A configuration may be read by everybody.
+void check_no_password(const std::string& url) {
+  static const std::regex password("(passw(or)?d|pwd)=(?!\\{password\\})[^&?/]", std::regex::icase);
+  if (std::regex_search(url, password))
+    throw std::invalid_argument(
+        "must not contain a password: write {password} in its place, and set user and "
+        "password_file");
+}
+
 void check_url(const std::string& url) {
   const std::size_t host = host_at(url);
   if (host == 0) throw std::invalid_argument("must be rtsp://HOST/... or rtsps://HOST/...");
@@ -29,6 +45,19 @@ void check_url(const std::string& url) {
     throw std::invalid_argument(
         "must not name user and password: they belong in user and password_file");
   }
+  check_no_password(url);
+}
+
+bool names_login(const std::string& url) {
+  return url.find(kUser) != std::string::npos || url.find(kPassword) != std::string::npos;
+}
+
+void replace(std::string& url, std::string_view word, const std::string& value) {
+  gchar* const escaped = g_uri_escape_string(value.c_str(), nullptr, FALSE);
+  const std::string text = escaped;
+  g_free(escaped);
+  for (std::size_t at = 0; (at = url.find(word, at)) != std::string::npos; at += text.size())
+    url.replace(at, word.size(), text);
 }
 
 void check(ConfigTable& table, const RtspConfig& c) {
@@ -37,6 +66,8 @@ void check(ConfigTable& table, const RtspConfig& c) {
   if (c.user.empty() != c.password_file.empty())
     throw table.error(c.user.empty() ? "password_file" : "user",
                       "user and password_file need each other");
+  if (c.user.empty() && names_login(c.url))
+    throw table.error("url", "{user} and {password} need user and password_file");
   if (c.url.starts_with("rtsps:") && c.transport == RtspTransport::kUdp)
     throw table.error("transport", "rtsps:// needs tcp");
   if (!c.pinned_key.empty() && !c.url.starts_with("rtsps:"))
@@ -50,12 +81,21 @@ std::string shown_url(const std::string& url) {
   return path == std::string::npos ? url : url.substr(0, path) + "/...";
 }
 
+std::string filled_url(const RtspConfig& config, const std::string& password) {
+  std::string url = config.url;
+  replace(url, kUser, config.user);
+  replace(url, kPassword, password);
+  return url;
+}
+
 config::Section rtsp_section(RtspConfig& c) {
   using config::number;
   std::vector<config::Row> rows{
-      config::text("url", c.url,
-                   "Address of the stream, rtsp:// or rtsps://, without user and password.",
-                   check_url)
+      config::text(
+          "url", c.url,
+          "Address of the stream, rtsp:// or rtsps://, without user and password. If the camera "
+          "wants them in the path: {user} and {password} are replaced.",
+          check_url)
           .required(),
       config::text("user", c.user, "User name at the camera; empty: none."),
       config::text("password_file", c.password_file,

@@ -11,7 +11,7 @@ namespace ols::camera {
 enum class RtspTransport { kTcp, kUdp };
 
 struct RtspConfig : CameraConfig {
-  std::string url;  // without user and password
+  std::string url;  // without user and password; may contain {user} and {password}
   std::string user;
   // File whose first line is the password; it is read at each connection.
   std::string password_file;
@@ -37,5 +37,8 @@ config::Section rtsp_section(RtspConfig& config);  // the section [camera]
 // The URL as it may appear in logs: "rtsp://10.0.0.5:554/...". The path is hidden, because some
 // cameras need the password in the path or after it.
 std::string shown_url(const std::string& url);
+
+// The URL to connect to: {user} and {password} are replaced, percent-encoded.
+std::string filled_url(const RtspConfig& config, const std::string& password);
 
 }  // namespace ols::camera

@@ -113,8 +113,9 @@ void RtspStream::Impl::add_source(const RtspConfig& config, const std::string& p
   }
   if (source == nullptr || sink_ == nullptr)
     throw CameraUnfit(alarm::camera_not_video("GStreamer has no rtspsrc or appsink"));
+  const std::string url = filled_url(config, password);
   // Stamps as the camera makes them (buffer-mode none): the arrivals are judged by our own clock.
-  g_object_set(source, "location", config.url.c_str(), "latency", kReorder_ms, "buffer-mode", 0,
+  g_object_set(source, "location", url.c_str(), "latency", kReorder_ms, "buffer-mode", 0,
                "add-reference-timestamp-meta", TRUE, "tcp-timeout", kTimeout_us, "timeout",
                kTimeout_us, "protocols", config.transport == RtspTransport::kTcp ? 4 : 1, nullptr);
   if (!config.user.empty())

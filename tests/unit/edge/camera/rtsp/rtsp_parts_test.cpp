@@ -30,6 +30,9 @@ TEST(RtspConfig, NeedsAnAddressWithoutLogin) {
         std::pair{"url = \"rtsp://\"", "rtsp://"},
         std::pair{"url = \"rtsp://admin:x@10.0.0.5/\"", "password_file"},
         std::pair{"url = \"rtsp://admin:x/y@10.0.0.5/\"", "password_file"},
+        std::pair{"url = \"rtsp://h/user=admin&password=geheim&c=1\"", "{password}"},
+        std::pair{"url = \"rtsp://h/c?usr=admin&Pwd=geheim\"", "{password}"},
+        std::pair{"url = \"rtsp://h/user={user}&password={password}\"", "need user"},
         std::pair{"url = \"rtsps://h/\"\ntransport = \"udp\"", "needs tcp"},
         std::pair{"url = \"rtsp://h/\"\nuser = \"admin\"", "password_file"},
         std::pair{"url = \"rtsp://h/\"\npixel_format = \"BayerRG8\"", "Mono8 or BGR8"},
@@ -38,6 +41,17 @@ TEST(RtspConfig, NeedsAnAddressWithoutLogin) {
   }
   EXPECT_EQ(shown_url("rtsp://10.0.0.5:554?user=a&password=b"), "rtsp://10.0.0.5:554/...");
   EXPECT_EQ(shown_url("rtsp://10.0.0.5:554/user=a_password=b?c"), "rtsp://10.0.0.5:554/...");
+}
+
+TEST(RtspConfig, APasswordThatACameraWantsInTheAddressStaysInItsFile) {
+  RtspConfig config;
+  ConfigFile file(
+      "url = 'rtsp://h/user={user}&password={password}&c=1'\nuser = 'a b'\n"
+      "password_file = '/etc/ols/camera-password'",
+      "station.toml");
+  config::read(rtsp_section(config), file.root());
+  EXPECT_EQ(filled_url(config, "p{user}/&"), "rtsp://h/user=a%20b&password=p%7Buser%7D%2F%26&c=1");
+  EXPECT_EQ(shown_url(config.url), "rtsp://h/...");
 }
 
 RtpPacket packet(std::uint16_t sequence, std::uint32_t stamp, bool last = true) {
