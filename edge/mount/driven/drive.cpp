@@ -12,11 +12,12 @@ namespace {
 
 using Kind = OrderedMotion::Kind;
 
-constexpr double kStopAgain_s = 0.4;    // until a stop that changed nothing is repeated
-constexpr double kBrakes_s = 0.2;       // after a stop: the mount may still be braking
-constexpr double kOldPosition_s = 1.0;  // with an older position there is no motion
-constexpr double kAhead_s = 0.5;        // longest extrapolation by the ordered rate
-constexpr double kRefused_s = 10.0;     // without motion, after ignored orders
+constexpr double kStopAgain_s = 0.4;       // until a stop that changed nothing is repeated
+constexpr double kBrakes_s = 0.2;          // after a stop: the mount may still be braking
+constexpr double kOldPosition_s = 1.0;     // with an older position there is no motion
+constexpr double kAhead_s = 0.5;           // longest extrapolation by the ordered rate
+constexpr double kAfterUnordered_s = 2.0;  // without motion, after one that only pictures showed
+constexpr double kRefused_s = 10.0;        // without motion, after ignored orders
 constexpr double kRateStep_rad_s = radians(0.1);
 constexpr double kRateShare = 0.05;   // a smaller change of rate waits for the renewal
 constexpr double kRenew = 1.0 / 3.0;  // of the lease: a motion is then renewed
@@ -260,8 +261,14 @@ void Drive::take(const Vector& position, double sent_s, double answered_s) {
   obey(position_watch_.judge(positions_, ordered_, picture_watch_), now_s);
 }
 
+// After a motion without an order, no motion is ordered before the reported positions are judged by
+// it, and before whoever ordered it may have ended.
 void Drive::see(const SeenTurn& turn) {
-  if (!positions_.empty()) obey(picture_watch_.see(turn, positions_, ordered_), turn.to_s);
+  if (positions_.empty()) return;
+  const Demand demand = picture_watch_.see(turn, positions_, ordered_);
+  obey(demand, turn.to_s);
+  if (demand == Demand::kStop)
+    refused_until_s_ = std::max(refused_until_s_, turn.to_s + kAfterUnordered_s);
 }
 
 std::vector<AngleSample> Drive::take_samples() {

@@ -220,6 +220,8 @@ TEST_F(DriveTest, AMotionThatOnlyThePicturesShowIsStoppedAndToldAndItsPositionsA
     EXPECT_NE(alarms().find("the picture moves without an order"), std::string::npos) << alarms();
     EXPECT_EQ(drive->counters().unordered_in_picture, 1u);
     EXPECT_EQ(camera.velocity.x, 0.0);
+    run(1.5, goal);
+    EXPECT_NE(alarms().find("contradict"), std::string::npos) << alarms();
     if (at_goal) continue;
     camera.velocity = {0.1, 0.0};
     run(1.5);
