@@ -56,7 +56,8 @@ class Tracklet {
   const Eigen::Vector2d& pixel() const { return pixel_; }
   const Eigen::Vector2d& velocity_px_s() const { return velocity_px_s_; }
   double velocity_sd_px_s() const { return std::sqrt(covariance_(1, 1)); }  // on each axis
-  // The newest detection: its pixel, the 1-sigma of that pixel on each axis, and its size.
+  // measured_pixel(), measured_sd_px(): where the object was last detected or recognised, and the
+  // 1-sigma of that on each axis. measured_size_px(): the size of its last detection.
   const Eigen::Vector2d& measured_pixel() const { return measured_pixel_; }
   double measured_sd_px() const { return measured_sd_px_; }
   const Eigen::Vector2d& measured_size_px() const { return measured_size_px_; }
