@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/config/toml_text.h"
+#include "edge/camera/rtsp/rtsp_config.h"
 #include "tools/setup/plan.h"
 
 namespace ols::setup {
@@ -72,7 +73,7 @@ void add_onvif(Values& values, const std::string& url, const onvif::Offer::Strea
                const OnvifLogin& login) {
   if (!has_camera(values)) {
     add(values, "station.camera.kind", "rtsp");
-    add(values, "station.camera.url", stream.url);
+    add(values, "station.camera.url", camera::without_password(stream.url));
     add_number(values, "station.camera.width_px", stream.profile.width_px);
     add_number(values, "station.camera.height_px", stream.profile.height_px);
     add_number(values, "station.camera.frame_rate_hz", stream.profile.frame_rate_hz);

@@ -26,8 +26,7 @@ constexpr std::string_view kUser = "{user}", kPassword = "{password}";
 
 // A configuration may be read by everybody.
 void check_no_password(const std::string& url) {
-  static const std::regex password("(passw(or)?d|pwd)=(?!\\{password\\})[^&?/]", std::regex::icase);
-  if (std::regex_search(url, password))
+  if (without_password(url) != url)
     throw std::invalid_argument(
         "must not contain a password: write {password} in its place, and set user and "
         "password_file");
@@ -79,6 +78,11 @@ void check(ConfigTable& table, const RtspConfig& c) {
 std::string shown_url(const std::string& url) {
   const std::size_t path = url.find_first_of("/?#", host_at(url));
   return path == std::string::npos ? url : url.substr(0, path) + "/...";
+}
+
+std::string without_password(const std::string& url) {
+  static const std::regex password("((?:pass(?:w(?:or)?d)?|pwd)=)[^&?/]+", std::regex::icase);
+  return std::regex_replace(url, password, "$1" + std::string(kPassword));
 }
 
 std::string filled_url(const RtspConfig& config, const std::string& password) {

@@ -38,6 +38,9 @@ config::Section rtsp_section(RtspConfig& config);  // the section [camera]
 // cameras need the password in the path or after it.
 std::string shown_url(const std::string& url);
 
+// The URL with {password} in place of a password that it contains, such as "pwd=secret".
+std::string without_password(const std::string& url);
+
 // The URL to connect to: {user} and {password} are replaced, percent-encoded.
 std::string filled_url(const RtspConfig& config, const std::string& password);
 

@@ -40,6 +40,14 @@ TEST(OnvifAnswers, AStreamIsACameraAndItsMotionAMount) {
   EXPECT_EQ(words_of(stream(1.0)), "main: H264, 1280 x 720, 25 Hz, turns");
 }
 
+TEST(OnvifAnswers, APasswordInTheAddressOfAStreamIsNotWritten) {
+  onvif::Offer::Stream tells = stream(1.0);
+  tells.url = "rtsp://10.0.0.5/user=admin&password=geheim&channel=1";
+  Values values;
+  add_onvif(values, kUrl, tells, {"admin", "/etc/ols/p"});
+  EXPECT_THAT(file(values), HasSubstr("/user=admin&password={password}&channel=1"));
+}
+
 TEST(OnvifAnswers, APinnedKeyIsWrittenWhereThereIsACertificate) {
   const std::string pin = "sha256//" + std::string(43, 'A') + "=";
   Values values;

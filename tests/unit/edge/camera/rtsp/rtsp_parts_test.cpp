@@ -32,6 +32,7 @@ TEST(RtspConfig, NeedsAnAddressWithoutLogin) {
         std::pair{"url = \"rtsp://admin:x/y@10.0.0.5/\"", "password_file"},
         std::pair{"url = \"rtsp://h/user=admin&password=geheim&c=1\"", "{password}"},
         std::pair{"url = \"rtsp://h/c?usr=admin&Pwd=geheim\"", "{password}"},
+        std::pair{"url = \"rtsp://h/c?user=admin&pass=geheim\"", "{password}"},
         std::pair{"url = \"rtsp://h/user={user}&password={password}\"", "need user"},
         std::pair{"url = \"rtsps://h/\"\ntransport = \"udp\"", "needs tcp"},
         std::pair{"url = \"rtsp://h/\"\nuser = \"admin\"", "password_file"},
