@@ -247,7 +247,7 @@ cv::Mat walker_on_ground(int image, int last) {
 }
 
 TEST(Detector, RecognisesWhatStopsBeforeTheGround) {
-  constexpr int kStops = 45, kLater = 45;  // after a second, the scene contains it
+  constexpr int kStops = 45, kLater = 80;  // after a second, the scene contains it
   const Watch watch([](int i) { return walker_on_ground(i, kStops); }, kStops + kLater);
   const auto only = watch.only();
   ASSERT_TRUE(only);
