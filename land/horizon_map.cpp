@@ -175,8 +175,8 @@ double HorizonMap::sum_visible(const Columns& columns, const OnAzimuth& point,
   const auto distance_m = [&](double offset) {
     return point.distance_m + point.distance_sd_m * offset;
   };
-  const auto sd_rad = [&](const LandHeight& land) {
-    return std::sqrt(point.elevation_sd_rad * point.elevation_sd_rad + land.sd_rad * land.sd_rad);
+  const auto sd_rad = [&](double land_sd_rad) {
+    return std::sqrt(point.elevation_sd_rad * point.elevation_sd_rad + land_sd_rad * land_sd_rad);
   };
   const double from_m = distance_m(offsets.front()), to_m = distance_m(offsets.back());
   std::size_t left = columns.left.beyond(from_m), right = columns.right.beyond(from_m);
@@ -187,7 +187,10 @@ double HorizonMap::sum_visible(const Columns& columns, const OnAzimuth& point,
   };
   const std::size_t first_left = left, first_right = right;
   const LandHeight nearest = land_before(from_m), farthest = land_before(to_m);
-  const double clear_rad = kClear * std::max(sd_rad(nearest), sd_rad(farthest));
+  const double land_sd_rad =
+      std::max({nearest.sd_rad, farthest.sd_rad, columns.left.greatest_sd_rad(first_left, left),
+                columns.right.greatest_sd_rad(first_right, right)});
+  const double clear_rad = kClear * sd_rad(land_sd_rad);
   const double half_rad = std::abs(point.rise_rad) * offsets.back();
   if (point.elevation_rad - half_rad > farthest.elevation_rad + clear_rad)
     return static_cast<double>(offsets.size());
@@ -198,7 +201,7 @@ double HorizonMap::sum_visible(const Columns& columns, const OnAzimuth& point,
   for (const double offset : offsets) {
     const LandHeight land = land_before(distance_m(offset));
     const double elevation_rad = point.elevation_rad + point.rise_rad * offset;
-    sum += probability_above(elevation_rad - land.elevation_rad, sd_rad(land));
+    sum += probability_above(elevation_rad - land.elevation_rad, sd_rad(land.sd_rad));
   }
   return sum;
 }

@@ -1,5 +1,7 @@
 #include "land/staircases.h"
 
+#include <algorithm>
+
 namespace ols::land {
 
 // Between the camera's foot and the first step the ground is level.
@@ -8,6 +10,14 @@ LandHeight Staircase::near_foot(double distance_m) const {
   if (first.elevation_rad >= 0.0F || !(distance_m > 0.0)) return {};
   const double nearer = distances_m_[0] / distance_m;
   return {std::atan(std::tan(double{first.elevation_rad}) * nearer), first.sd_rad * nearer};
+}
+
+double Staircase::greatest_sd_rad(std::size_t first, std::size_t last) const {
+  const std::size_t from = first > 0 ? first - 1 : 0, end = std::min(last + 1, distances_m_.size());
+  float greatest = 0.0F;
+  for (std::size_t step = from; step < end; ++step)
+    greatest = std::max(greatest, heights_[step].sd_rad);
+  return greatest;
 }
 
 double Staircase::distance_at(double elevation_rad) const {

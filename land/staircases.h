@@ -58,6 +58,9 @@ class Staircase {
     if (!is_steep(step - 1)) return {mix(from.elevation_rad, to.elevation_rad), sd_rad};
     return {std::atan(mix(up_m(step - 1), up_m(step)) / distance_m), sd_rad};
   }
+  // The greatest 1-sigma of the land between two distances; `first` and `last`: the first steps
+  // beyond them. It may exceed that at both: a crest that is surely known may follow a wood.
+  double greatest_sd_rad(std::size_t first, std::size_t last) const;
   // The first distance where the land is as high; kNone above the skyline.
   double distance_at(double elevation_rad) const;
 

@@ -176,6 +176,37 @@ TEST(HorizonMap, VisibilityFollowsThePointsCovariance) {
   EXPECT_LT(half, 0.65);
 }
 
+// Level land with a wood at 3.9 km, whose height is hardly known, and a crest at 4 km, which is
+// surely a little higher.
+class WoodBeforeCrest : public Surface {
+ public:
+  std::optional<SurfaceHeight> ground(double latitude_rad, double) const override {
+    const double at_m = north_m(latitude_rad);
+    if (at_m > 3900.0 && at_m < 3910.0) return SurfaceHeight{50.0, 60.0};
+    if (at_m > 4000.0 && at_m < 4010.0) return SurfaceHeight{60.0, 0.0};
+    return SurfaceHeight{0.0, 0.0};
+  }
+  std::optional<SurfaceHeight> top(double latitude_rad, double longitude_rad) const override {
+    return ground(latitude_rad, longitude_rad);
+  }
+};
+
+TEST(HorizonMap, AnUnsureWoodBetweenTheDistancesOfAPointIsNotOverlooked) {
+  const HorizonMap map = look(WoodBeforeCrest(), 0.0);
+  const Eigen::Vector3d place(0.0, 3950.0, 70.0);  // clearly above the crest, not above the wood
+  const Eigen::Vector3d towards = place.normalized();
+  const double sd_m = 100.0;
+  const Eigen::Matrix3d R = kFrame.R_ecef_enu();
+  const Eigen::Matrix3d along = R * (sd_m * sd_m * towards * towards.transpose()) * R.transpose();
+  double mean = 0.0;
+  for (const double sigmas : {-1.39981, -0.53190, 0.0, 0.53190, 1.39981}) {
+    const Eigen::Vector3d at = kFrame.to_ecef(place + sigmas * sd_m * towards);
+    mean += 0.2 * map.visible_probability(at, Eigen::Matrix3d::Zero());
+  }
+  EXPECT_LT(mean, 0.99);
+  EXPECT_NEAR(map.visible_probability(kFrame.to_ecef(place), along), mean, 2e-3);
+}
+
 TEST(HorizonMap, TheSurfacesErrorIsThatOfTheSkyline) {
   const MadeLand rough([](double, double) { return 0.0; }, 4.0);
   const HorizonMap map = look(rough, 1.0);
