@@ -119,7 +119,7 @@ void Tracklet::update(const Detection& detection) {
 }
 
 void Tracklet::recognised(const Eigen::Vector2d& pixel) {
-  const double sd_px = 0.5 + 0.1 * std::sqrt(std::max(1.0, size_px_.prod()));
+  const double sd_px = Detection{pixel, size_px_}.sd_px();  // as exact as a spot
   correct(pixel, sd_px * sd_px);
   be_seen_at(pixel, sd_px);
 }
