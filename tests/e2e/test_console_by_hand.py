@@ -62,8 +62,8 @@ def test_a_hand_that_never_rests_is_told_ten_times_a_second(page, paper):
     rates = lambda: [m for m in paper.ptu_commands if m.command == m.COMMAND_RATE]  # noqa: E731
 
     def pressed():
-        """Whether this press drove, and ended with a halt: one that a gap in the connection ends does
-        neither, and the station halts when the last rate's lease ends."""
+        """Whether this press drove, and ended with a halt. One that a gap in the connection ends
+        may do neither; the station then halts when the last rate's lease ends."""
         paper.ptu_commands.clear()
         begin = time.monotonic()
         page.mouse.move(*place(canvas, 0.5, 0.5))
